@@ -1,0 +1,1 @@
+//! Building and traversing the tree.

@@ -1,0 +1,1 @@
+//! The scene exactly as the user wrote it.

@@ -1,0 +1,1 @@
+//! Accumulation in a fixed order and the tone curve.

@@ -1,0 +1,1 @@
+//! Rays, hits and primitive kernels.

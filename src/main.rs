@@ -1,0 +1,3 @@
+//! The `octray` program.
+
+fn main() {}

@@ -1,0 +1,1 @@
+//! Numbers: lanes, vectors, boxes, transforms, rounding bounds.

@@ -1,0 +1,1 @@
+//! Counter-based random numbers, low-discrepancy points and pixel filters.

@@ -1,0 +1,1 @@
+//! Queues of path states and the loop over them.
