@@ -1,1 +1,33 @@
-//! Numbers: lanes, vectors, boxes, transforms, rounding bounds.
+//! Numbers: the lane trait, vectors over lanes, boxes, transforms and rounding bounds.
+//!
+//! Everything that touches a ray is written once over [`Lane`] and used as one value (`f32`, `f64`) or as eight
+//! (`f32x8`, `f64x8`).
+
+mod aabb;
+mod lane;
+mod lane_scalar;
+mod lane_wide;
+mod transform;
+mod vec3;
+
+pub use aabb::Aabb;
+pub use lane::{BitLane, Lane, Mask, Real};
+pub use transform::{Transform, TransformError};
+pub use vec3::Vec3;
+
+/// Lanes in one packet: the width of `f32x8`.
+pub const WIDTH: usize = 8;
+
+/// Bound on the relative error of `n` roundings: `n u / (1 - n u)` with the unit roundoff `u` of `f32`.
+///
+/// **Source:** Higham, Accuracy and Stability of Numerical Algorithms, 2002, lemma 3.1; the name is that of
+/// Pharr, Jakob and Humphreys, 4th ed., 6.8.
+pub const fn gamma(n: u32) -> f32 {
+    gamma_of(n, f32::EPSILON as f64 / 2.0) as f32
+}
+
+/// [`gamma`] for a number type with unit roundoff `u`.
+pub const fn gamma_of(n: u32, u: f64) -> f64 {
+    let nu = n as f64 * u;
+    nu / (1.0 - nu)
+}
