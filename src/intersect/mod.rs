@@ -1,1 +1,16 @@
-//! Rays, hits and primitive kernels.
+//! Rays, hits and the primitive tests, each written once for every lane width and number type.
+//!
+//! A test takes rays and primitives as lanes: eight rays against one primitive (the primitive splatted) or one ray
+//! against eight primitives (the ray splatted). Beside each kernel stands an independent plain version in `f64`, the
+//! `oracle`, that it is property-tested against.
+
+pub mod aabb;
+pub mod cylinder;
+pub mod plane;
+mod ray;
+pub mod sphere;
+mod tier;
+pub mod triangle;
+
+pub use ray::{Hit, LaneHit, PrimId, PrimKind, Ray, RayLanes};
+pub use tier::{Curved, Exact, Fast, Tier, TierName, TriangleTest, Watertight};

@@ -124,6 +124,9 @@ pub trait Lane:
     /// `yes` where the mask is true, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
+    /// `yes` where the mask is true, `no` elsewhere, for words.
+    fn select_bits(mask: Self::Mask, yes: Self::Bits, no: Self::Bits) -> Self::Bits;
+
     /// The lanes as `f64`, exactly.
     fn widen(self) -> Self::Double;
     /// The nearest lanes of this type.

@@ -130,6 +130,10 @@ macro_rules! scalar_lane {
                 if mask { yes } else { no }
             }
             #[inline(always)]
+            fn select_bits(mask: bool, yes: u32, no: u32) -> u32 {
+                if mask { yes } else { no }
+            }
+            #[inline(always)]
             fn widen(self) -> f64 {
                 self as f64
             }

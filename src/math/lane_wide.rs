@@ -189,6 +189,11 @@ impl Lane for f32x8 {
     wide_lane!(f32x8, f32, Mask32);
 
     #[inline(always)]
+    fn select_bits(mask: Mask32, yes: u32x8, no: u32x8) -> u32x8 {
+        let mask = u32x8::new(mask.0.to_array().map(f32::to_bits));
+        (yes & mask) | (no & !mask)
+    }
+    #[inline(always)]
     fn load_f32(values: &[f32; 8]) -> Self {
         f32x8::new(*values)
     }
@@ -217,6 +222,10 @@ impl Lane for f32x8 {
 impl Lane for f64x8 {
     wide_lane!(f64x8, f64, Mask64);
 
+    #[inline(always)]
+    fn select_bits(mask: Mask64, yes: u32x8, no: u32x8) -> u32x8 {
+        f32x8::select_bits(f32x8::narrow_mask(mask), yes, no)
+    }
     #[inline(always)]
     fn load_f32(values: &[f32; 8]) -> Self {
         f64x8::new(values.map(f64::from))

@@ -1,0 +1,73 @@
+//! Culling boxes of the tree: conservative, in `f32`, fused where the build fuses.
+
+use super::safe_reciprocal;
+use crate::math::{Lane, Vec3};
+
+/// Roundoffs of the largest coordinate by which tree boxes are widened: those that [`super::OwnBox`] allows a triangle
+/// plus the roundings in which the fused and the plain slab may differ (at most 6, counted with the subtraction of the
+/// origin), plus as many again for origins rounded to `f32` in the `Exact` tier.
+const PAD_ROUNDOFFS: f64 = 36.0;
+
+/// Rays prepared for slab tests against boxes of the tree.
+///
+/// **Accuracy:** the interval returned holds that of [`super::OwnBox`] of every primitive in the box, as long as no
+/// coordinate of the box is larger than `scale`.
+#[derive(Clone, Copy, Debug)]
+pub struct CullRay<L> {
+    reciprocal: Vec3<L>,
+    near_offset: Vec3<L>,
+    far_offset: Vec3<L>,
+}
+
+impl<L: Lane> CullRay<L> {
+    /// Prepares rays for boxes whose coordinates are at most `scale`.
+    #[inline(always)]
+    pub fn new(origin: Vec3<L>, direction: Vec3<L>, scale: L) -> Self {
+        let reciprocal = safe_reciprocal(direction);
+        let roundoffs = L::constant(PAD_ROUNDOFFS * f64::from(f32::EPSILON) / 2.0);
+        let pad = (origin.abs().max_component() + scale) * roundoffs;
+        let width = reciprocal.abs() * pad;
+        let start = origin.scale(reciprocal);
+        Self { reciprocal, near_offset: -(start + width), far_offset: width - start }
+    }
+
+    /// Lane `i` in all lanes.
+    #[inline(always)]
+    pub fn splat_lane(&self, i: usize) -> Self {
+        let splat = |v: Vec3<L>| Vec3::splat(v.get(i));
+        Self {
+            reciprocal: splat(self.reciprocal),
+            near_offset: splat(self.near_offset),
+            far_offset: splat(self.far_offset),
+        }
+    }
+
+    /// Bit k set in lane i where the ray goes against axis k.
+    #[inline(always)]
+    pub fn backward(&self) -> [L::Mask; 3] {
+        let zero = L::zero();
+        [self.reciprocal.x.lt(zero), self.reciprocal.y.lt(zero), self.reciprocal.z.lt(zero)]
+    }
+
+    /// Where the rays enter and leave, given for each axis the plane they meet first and the one they meet last.
+    #[inline(always)]
+    pub fn interval(&self, near: Vec3<L>, far: Vec3<L>, t_min: L, t_max: L) -> (L, L) {
+        let (r, n, f) = (self.reciprocal, self.near_offset, self.far_offset);
+        let enter = near.x.mul_add_fast(r.x, n.x).max(t_min);
+        let enter = near.y.mul_add_fast(r.y, n.y).max(enter);
+        let enter = near.z.mul_add_fast(r.z, n.z).max(enter);
+        let leave = far.x.mul_add_fast(r.x, f.x).min(t_max);
+        let leave = far.y.mul_add_fast(r.y, f.y).min(leave);
+        let leave = far.z.mul_add_fast(r.z, f.z).min(leave);
+        (enter, leave)
+    }
+
+    /// [`CullRay::interval`] for rays of any direction.
+    #[inline(always)]
+    pub fn interval_any(&self, lo: Vec3<L>, hi: Vec3<L>, t_min: L, t_max: L) -> (L, L) {
+        let [bx, by, bz] = self.backward();
+        let near = Vec3::new(L::select(bx, hi.x, lo.x), L::select(by, hi.y, lo.y), L::select(bz, hi.z, lo.z));
+        let far = Vec3::new(L::select(bx, lo.x, hi.x), L::select(by, lo.y, hi.y), L::select(bz, lo.z, hi.z));
+        self.interval(near, far, t_min, t_max)
+    }
+}

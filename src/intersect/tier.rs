@@ -1,0 +1,129 @@
+//! Precision as a type: three markers that fix number type, triangle test and how curved surfaces are decided.
+
+use wide::{f32x8, f64x8};
+
+use super::triangle::{MollerTrumbore, Woop};
+use super::{LaneHit, RayLanes, cylinder, sphere};
+use crate::math::{Lane, Real, Vec3};
+
+/// A triangle test: what it prepares once a ray, and what it asks of a triangle.
+pub trait TriangleTest: Copy + Send + Sync + 'static {
+    /// What is computed once a ray.
+    type Prepared<L: Lane>: Copy;
+    /// Prepares rays.
+    fn prepare<L: Lane>(ray: &RayLanes<L>) -> Self::Prepared<L>;
+    /// Meets rays with triangles; `limit` is the nearest hit so far, and hits beyond it may be left out.
+    fn test<L: Lane>(
+        ray: &RayLanes<L>,
+        prepared: &Self::Prepared<L>,
+        vertices: [Vec3<L>; 3],
+        limit: L,
+    ) -> LaneHit<L>;
+}
+
+/// How spheres and cylinders are decided.
+pub trait Curved: Copy + Send + Sync + 'static {
+    /// Meets rays with spheres.
+    fn sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> LaneHit<L>;
+    /// Meets rays with cylinders.
+    fn cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
+}
+
+/// Solves in the number type of the lanes.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Direct;
+
+/// Sorts out what certainly misses in the number type of the lanes, solves the rest in `f64`.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Filtered;
+
+impl Curved for Direct {
+    #[inline(always)]
+    fn sphere<L: Lane>(ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
+        sphere::solve(ray, s)
+    }
+    #[inline(always)]
+    fn cylinder<L: Lane>(ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
+        cylinder::solve(ray, c)
+    }
+}
+
+impl Curved for Filtered {
+    #[inline(always)]
+    fn sphere<L: Lane>(ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
+        sphere::filter_and_solve(ray, s)
+    }
+    #[inline(always)]
+    fn cylinder<L: Lane>(ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
+        cylinder::filter_and_solve(ray, c)
+    }
+}
+
+mod sealed {
+    pub trait Sealed {}
+}
+
+/// A precision tier. The program matches on [`TierName`] once, at the door; behind it the tier is a type.
+pub trait Tier: sealed::Sealed + Copy + Default + Send + Sync + 'static {
+    /// Number type of rays, hits and shading.
+    type Real: Real;
+    /// Eight of them.
+    type Wide: Lane<Scalar = Self::Real, Bits = wide::u32x8>;
+    /// The triangle test.
+    type Triangle: TriangleTest;
+    /// How spheres and cylinders are decided.
+    type Curved: Curved;
+    /// The name of the tier.
+    const NAME: TierName;
+}
+
+/// `f32` throughout, fused and approximate operations where they pay; may leak at shared edges.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Fast;
+
+/// `f32` rays, edge decisions that no closed mesh leaks through, `t` decided in `f64`; the same bits everywhere.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Watertight;
+
+/// `f64` rays, tests and shading on the `f32` scene.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct Exact;
+
+macro_rules! tier {
+    ($tier:ident, $real:ty, $wide:ty, $triangle:ty, $curved:ty) => {
+        impl sealed::Sealed for $tier {}
+        impl Tier for $tier {
+            type Real = $real;
+            type Wide = $wide;
+            type Triangle = $triangle;
+            type Curved = $curved;
+            const NAME: TierName = TierName::$tier;
+        }
+    };
+}
+tier!(Fast, f32, f32x8, MollerTrumbore, Direct);
+tier!(Watertight, f32, f32x8, Woop, Filtered);
+tier!(Exact, f64, f64x8, Woop, Direct);
+
+/// The name of a tier, as users choose it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum TierName {
+    /// [`Fast`].
+    Fast,
+    /// [`Watertight`].
+    #[default]
+    Watertight,
+    /// [`Exact`].
+    Exact,
+}
+
+impl TierName {
+    /// As written in scene files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Fast => "fast",
+            Self::Watertight => "watertight",
+            Self::Exact => "exact",
+        }
+    }
+}
