@@ -1,1 +1,84 @@
 //! Building and traversing the tree.
+
+pub mod block;
+pub mod brute;
+mod leaf;
+pub mod node;
+mod packet;
+pub mod query;
+mod single;
+mod traversal;
+
+use block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
+use node::{ChildRef, Node8};
+
+use crate::intersect::{RayLanes, Tier};
+use crate::math::{Lane, Transform, Vec3};
+use leaf::PreparedRays;
+use query::Query;
+
+pub use traversal::{Hint, Traversal};
+
+/// Trees of all groups of a scene, and their leaves, packed.
+#[derive(Debug, Default)]
+pub struct Accel {
+    nodes: Vec<Node8>,
+    triangles: Vec<TriangleBlock>,
+    spheres: Vec<SphereBlock>,
+    cylinders: Vec<CylinderBlock>,
+    instance_blocks: Vec<InstanceBlock>,
+    instances: Vec<PlacedTree>,
+    planes: Vec<[[f32; 3]; 2]>,
+    world: TreeRoot,
+    stack_bound: usize,
+}
+
+/// Where the tree of a group starts, and the largest coordinate in it.
+#[derive(Clone, Copy, Debug, Default)]
+struct TreeRoot {
+    node: u32,
+    scale: f32,
+}
+
+/// The tree of a group seen through an instance.
+#[derive(Clone, Debug)]
+struct PlacedTree {
+    tree: TreeRoot,
+    to_world: Transform,
+}
+
+impl Accel {
+    /// Kind number of leaves that hold instances.
+    const INSTANCE: u8 = 4;
+
+    /// Rays in the space of an instance; `t` keeps its meaning, since directions keep their lengths' ratio.
+    #[inline(always)]
+    fn local_rays<L: Lane>(to_world: &Transform, ray: &RayLanes<L>) -> RayLanes<L> {
+        let rows = to_world.inverse_rows().map(|r| r.map(L::Double::splat));
+        let (o, d) = (ray.origin.widen(), ray.direction.widen());
+        let linear = |[x, y, z, _]: [L::Double; 4], v: Vec3<L::Double>| x * v.x + y * v.y + z * v.z;
+        let [r0, r1, r2] = rows;
+        let direction = Vec3 { x: linear(r0, d), y: linear(r1, d), z: linear(r2, d) };
+        let origin = Vec3 { x: linear(r0, o) + r0[3], y: linear(r1, o) + r1[3], z: linear(r2, o) + r2[3] };
+        RayLanes { origin: Vec3::narrow(origin), direction: Vec3::narrow(direction), ..*ray }
+    }
+
+    /// Takes a query through each instance of a leaf, in the space of its group.
+    #[inline(never)]
+    fn visit_instances<T: Tier, Q: Query<T::Wide>>(
+        &self,
+        leaf: ChildRef,
+        rays: &PreparedRays<T>,
+        query: &mut Q,
+        mut traverse: impl FnMut(u32, &PreparedRays<T>, &mut Q),
+    ) {
+        let block = &self.instance_blocks[leaf.index()];
+        for &row in &block.rows[..block.len as usize] {
+            let placed = &self.instances[row as usize];
+            let local = Self::local_rays(&placed.to_world, &rays.ray);
+            query.enter_instance(row + 1);
+            traverse(placed.tree.node, &PreparedRays::new(local, placed.tree.scale), query);
+        }
+        query.enter_instance(0);
+    }
+}

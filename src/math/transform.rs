@@ -44,30 +44,6 @@ impl Transform {
         if usable { Ok(Self { forward, inverse }) } else { Err(TransformError::Singular) }
     }
 
-    /// Moves by `by`.
-    pub fn translate(by: [f64; 3]) -> Self {
-        let forward = DAffine3::from_translation(by.into());
-        Self { forward, inverse: DAffine3::from_translation(-DVec3::from(by)) }
-    }
-
-    /// Scales by axis. **Errors:** a zero or non-finite factor.
-    pub fn scale(by: [f64; 3]) -> Result<Self, TransformError> {
-        Self::new(DAffine3::from_scale(by.into()))
-    }
-
-    /// Turns about `axis` by `angle_rad`, counter-clockwise seen against the axis.
-    ///
-    /// **Errors:** an axis of length zero, or a number that is not finite.
-    ///
-    /// **Source:** Rodrigues' formula; sine and cosine are those of `libm`, the same on every platform.
-    pub fn rotate(axis: [f64; 3], angle_rad: f64) -> Result<Self, TransformError> {
-        let axis = DVec3::from(axis).try_normalize().ok_or(TransformError::Singular)?;
-        let (s, c) = libm::sincos(angle_rad);
-        let turn = |v: DVec3| v * c + axis.cross(v) * s + axis * (axis.dot(v) * (1.0 - c));
-        let matrix = DMat3::from_cols(turn(DVec3::X), turn(DVec3::Y), turn(DVec3::Z));
-        Self::new(DAffine3::from_mat3(matrix))
-    }
-
     /// This map first, then `next`.
     pub fn then(&self, next: &Self) -> Self {
         Self { forward: next.forward * self.forward, inverse: self.inverse * next.inverse }
@@ -133,27 +109,38 @@ impl Transform {
 mod tests {
     use super::*;
 
+    fn scale([x, y, z]: [f64; 3]) -> Result<Transform, TransformError> {
+        Transform::from_rows([[x, 0.0, 0.0, 0.0], [0.0, y, 0.0, 0.0], [0.0, 0.0, z, 0.0]])
+    }
+
     #[test]
     fn normals_stay_perpendicular_under_non_uniform_scale() {
-        let t = Transform::scale([3.0, 1.0, 0.5]).unwrap();
+        let t = scale([3.0, 1.0, 0.5]).unwrap();
         let (tangent, normal) = (t.direction([1.0, 1.0, 0.0]), t.normal([1.0, -1.0, 0.0]));
         let dot: f64 = (0..3).map(|k| tangent[k] * normal[k]).sum();
         assert!(dot.abs() < 1e-15);
     }
 
     #[test]
-    fn flattening_is_refused() {
-        assert_eq!(Transform::scale([1.0, 0.0, 1.0]), Err(TransformError::Singular));
-        assert_eq!(Transform::rotate([0.0; 3], 1.0), Err(TransformError::Singular));
+    fn flattening_and_nan_are_refused() {
+        assert_eq!(scale([1.0, 0.0, 1.0]), Err(TransformError::Singular));
+        assert_eq!(scale([1.0, f64::NAN, 1.0]), Err(TransformError::NotFinite));
     }
 
     #[test]
-    fn maps_compose_in_the_order_written() {
-        let quarter = Transform::rotate([0.0, 0.0, 1.0], std::f64::consts::FRAC_PI_2).unwrap();
-        let t = Transform::translate([1.0, 0.0, 0.0]).then(&quarter);
-        let p = t.point([0.0, 0.0, 0.0]);
-        assert!((p[0]).abs() < 1e-15 && (p[1] - 1.0).abs() < 1e-15);
-        let back = t.inverted().point(p);
-        assert!(back.iter().all(|c| c.abs() < 1e-15));
+    fn maps_compose_first_to_last_and_have_a_way_back() {
+        let shift =
+            Transform::from_rows([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]).unwrap();
+        let quarter =
+            Transform::from_rows([[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]).unwrap();
+        let both = shift.then(&quarter);
+        assert_eq!(both.point([0.0; 3]), [0.0, 1.0, 0.0]);
+        assert_eq!(both.inverted().point([0.0, 1.0, 0.0]), [0.0; 3]);
+    }
+
+    #[test]
+    fn only_similar_maps_have_a_uniform_scale() {
+        assert_eq!(scale([2.0, 2.0, -2.0]).unwrap().uniform_scale(), Some(2.0));
+        assert_eq!(scale([2.0, 2.0, 2.1]).unwrap().uniform_scale(), None);
     }
 }

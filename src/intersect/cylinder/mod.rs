@@ -10,7 +10,7 @@
 pub mod oracle;
 
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{Lane, Mask, Vec3, gamma};
+use crate::math::{Aabb, Lane, Mask, Vec3, gamma};
 
 /// Cylinders as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -136,6 +136,17 @@ fn may_hit<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> L::Mask {
     let misses = f.dot(n).abs().gt(reach);
     // Products of tiny numbers that lost their digits to underflow decide nothing.
     !(misses & slack.gt(L::constant(f64::from(f32::MIN_POSITIVE))))
+}
+
+/// The box of a cylinder, rounded outwards: along each axis a cap reaches `r sqrt(1 - a^2)` with `a` the share of the
+/// cylinder's axis in it.
+pub fn bounds(from: [f32; 3], to: [f32; 3], radius: f32) -> Aabb {
+    let (from, to) = (from.map(f64::from), to.map(f64::from));
+    let axis: [f64; 3] = std::array::from_fn(|k| to[k] - from[k]);
+    let length2: f64 = axis.iter().map(|a| a * a).sum();
+    let reach = axis.map(|a| f64::from(radius) * (1.0 - a * a / length2).max(0.0).sqrt() * (1.0 + 1e-14));
+    let around = |c: [f64; 3], sign: f64| std::array::from_fn(|k| c[k] + sign * reach[k]);
+    Aabb::around([around(from, -1.0), around(from, 1.0), around(to, -1.0), around(to, 1.0)])
 }
 
 #[cfg(test)]

@@ -11,7 +11,7 @@
 pub mod oracle;
 
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{Lane, Mask, Vec3, gamma};
+use crate::math::{Aabb, Lane, Mask, Vec3, gamma};
 
 /// Spheres as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -71,6 +71,12 @@ fn may_hit<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {
     let behind = b.gt(L::zero()) & ff.gt(reach + slack) & ray.t_min.ge(L::zero());
     let in_range = a.gt(L::constant(1e-30)) & a.lt(L::constant(1e30));
     !((misses | behind) & in_range)
+}
+
+/// The box of a sphere, rounded outwards.
+pub fn bounds(center: [f32; 3], radius: f32) -> Aabb {
+    let at = |sign: f64| center.map(|c| f64::from(c) + sign * f64::from(radius));
+    Aabb::around([at(-1.0), at(1.0)])
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ mod woop;
 pub use moller_trumbore::MollerTrumbore;
 pub use woop::Woop;
 
-use crate::math::{Lane, Vec3};
+use crate::math::{Aabb, Lane, Vec3};
 
 /// Where the line of a ray meets the plane of a triangle: `(t, u, v)`, not finite where it does not.
 ///
@@ -20,6 +20,11 @@ fn plane_coordinates<L: Lane>(origin: Vec3<L>, direction: Vec3<L>, [v0, v1, v2]:
     let (p, q) = (direction.cross(e2), s.cross(e1));
     let scale = L::one() / e1.dot(p);
     (e2.dot(q) * scale, s.dot(p) * scale, direction.dot(q) * scale)
+}
+
+/// The box of a triangle, exact.
+pub fn bounds(corners: [[f32; 3]; 3]) -> Aabb {
+    corners.into_iter().fold(Aabb::EMPTY, Aabb::join_point)
 }
 
 #[cfg(test)]

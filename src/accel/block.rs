@@ -1,0 +1,217 @@
+//! Leaves: up to eight primitives of a kind, stored so that a test loads them as lanes.
+
+use crate::intersect::{PrimId, PrimKind, cylinder, sphere};
+use crate::math::{Lane, Mask, Vec3, WIDTH};
+use crate::scene::Geometry;
+
+/// How a leaf is walked: which primitive stands in which lane at a step.
+pub trait Walk: Copy {
+    /// Steps for `len` primitives.
+    fn steps(len: u32) -> usize;
+    /// A stored column at a step.
+    fn value<L: Lane>(column: &[f32; WIDTH], step: usize) -> L;
+    /// Stored ids at a step.
+    fn ids<B: crate::math::BitLane>(column: &[u32; WIDTH], step: usize) -> B;
+    /// Stored vectors at a step.
+    #[inline(always)]
+    fn vec3<L: Lane>(columns: &[[f32; WIDTH]; 3], step: usize) -> Vec3<L> {
+        let [x, y, z] = columns;
+        Vec3::new(Self::value(x, step), Self::value(y, step), Self::value(z, step))
+    }
+    /// Stored truth values at a step.
+    fn flags<M: Mask>(bits: u32, step: usize) -> M;
+}
+
+/// Eight rays against one primitive a step.
+#[derive(Clone, Copy, Debug)]
+pub struct RaysByPrimitive;
+
+/// One ray against eight primitives at once.
+#[derive(Clone, Copy, Debug)]
+pub struct PrimitivesByRay;
+
+impl Walk for RaysByPrimitive {
+    #[inline(always)]
+    fn steps(len: u32) -> usize {
+        len as usize
+    }
+    #[inline(always)]
+    fn value<L: Lane>(column: &[f32; WIDTH], step: usize) -> L {
+        use crate::math::Real;
+        L::splat(L::Scalar::from_f32(column[step]))
+    }
+    #[inline(always)]
+    fn ids<B: crate::math::BitLane>(column: &[u32; WIDTH], step: usize) -> B {
+        B::splat(column[step])
+    }
+    #[inline(always)]
+    fn flags<M: Mask>(bits: u32, step: usize) -> M {
+        M::splat(bits >> step & 1 != 0)
+    }
+}
+
+impl Walk for PrimitivesByRay {
+    #[inline(always)]
+    fn steps(_: u32) -> usize {
+        1
+    }
+    #[inline(always)]
+    fn value<L: Lane>(column: &[f32; WIDTH], _: usize) -> L {
+        L::load_f32(column)
+    }
+    #[inline(always)]
+    fn ids<B: crate::math::BitLane>(column: &[u32; WIDTH], _: usize) -> B {
+        B::from_fn(|i| column[i])
+    }
+    #[inline(always)]
+    fn flags<M: Mask>(bits: u32, _: usize) -> M {
+        M::from_bits(bits)
+    }
+}
+
+/// Up to eight triangles by their corners: a shared vertex must be the same three numbers in every triangle.
+/// Lanes beyond `len` hold NaN, which no ray hits.
+#[repr(C, align(32))]
+#[derive(Clone, Debug)]
+pub struct TriangleBlock {
+    corner: [[[f32; WIDTH]; 3]; 3],
+    id: [u32; WIDTH],
+    len: u32,
+}
+
+/// Up to eight spheres.
+#[repr(C, align(32))]
+#[derive(Clone, Debug)]
+pub struct SphereBlock {
+    center: [[f32; WIDTH]; 3],
+    radius: [f32; WIDTH],
+    id: [u32; WIDTH],
+    len: u32,
+}
+
+/// Up to eight cylinders.
+#[repr(C, align(32))]
+#[derive(Clone, Debug)]
+pub struct CylinderBlock {
+    from: [[f32; WIDTH]; 3],
+    to: [[f32; WIDTH]; 3],
+    radius: [f32; WIDTH],
+    id: [u32; WIDTH],
+    capped: u32,
+    len: u32,
+}
+
+/// Up to eight instances.
+#[derive(Clone, Debug)]
+pub struct InstanceBlock {
+    /// Rows of the scene's instances.
+    pub rows: [u32; WIDTH],
+    /// How many count.
+    pub len: u32,
+}
+
+/// Lane by lane from the rows of a leaf; NaN beyond them.
+fn lanes(rows: &[u32], value: impl Fn(usize) -> f32) -> [f32; WIDTH] {
+    std::array::from_fn(|i| rows.get(i).map_or(f32::NAN, |&r| value(r as usize)))
+}
+
+fn lanes3(rows: &[u32], columns: &[Vec<f32>; 3]) -> [[f32; WIDTH]; 3] {
+    columns.each_ref().map(|c| lanes(rows, |r| c[r]))
+}
+
+fn ids(rows: &[u32], kind: PrimKind) -> [u32; WIDTH] {
+    std::array::from_fn(|i| rows.get(i).map_or(u32::MAX, |&r| PrimId::new(kind, r as usize).0))
+}
+
+impl TriangleBlock {
+    /// Packs rows of the triangle columns.
+    pub fn pack(geometry: &Geometry, rows: &[u32]) -> Self {
+        let t = &geometry.triangles;
+        let corner = t.vertex.each_ref().map(|vertex| {
+            t.position.each_ref().map(|axis| lanes(rows, |r| axis[vertex[r] as usize]))
+        });
+        Self { corner, id: ids(rows, PrimKind::Triangle), len: rows.len() as u32 }
+    }
+    /// Corners of the primitives at a step.
+    #[inline(always)]
+    pub fn corners<W: Walk, L: Lane>(&self, step: usize) -> [Vec3<L>; 3] {
+        let [a, b, c] = &self.corner;
+        [W::vec3(a, step), W::vec3(b, step), W::vec3(c, step)]
+    }
+}
+
+impl SphereBlock {
+    /// Packs rows of the sphere columns.
+    pub fn pack(geometry: &Geometry, rows: &[u32]) -> Self {
+        let s = &geometry.spheres;
+        Self {
+            center: lanes3(rows, &s.center),
+            radius: lanes(rows, |r| s.radius[r]),
+            id: ids(rows, PrimKind::Sphere),
+            len: rows.len() as u32,
+        }
+    }
+    /// Spheres at a step.
+    #[inline(always)]
+    pub fn spheres<W: Walk, L: Lane>(&self, step: usize) -> sphere::Lanes<L> {
+        sphere::Lanes { center: W::vec3(&self.center, step), radius: W::value(&self.radius, step) }
+    }
+}
+
+impl CylinderBlock {
+    /// Packs rows of the cylinder columns.
+    pub fn pack(geometry: &Geometry, rows: &[u32]) -> Self {
+        let c = &geometry.cylinders;
+        let capped = rows.iter().enumerate().map(|(i, &r)| u32::from(c.capped[r as usize]) << i).sum();
+        Self {
+            from: lanes3(rows, &c.from),
+            to: lanes3(rows, &c.to),
+            radius: lanes(rows, |r| c.radius[r]),
+            id: ids(rows, PrimKind::Cylinder),
+            capped,
+            len: rows.len() as u32,
+        }
+    }
+    /// Cylinders at a step.
+    #[inline(always)]
+    pub fn cylinders<W: Walk, L: Lane>(&self, step: usize) -> cylinder::Lanes<L> {
+        cylinder::Lanes {
+            from: W::vec3(&self.from, step),
+            to: W::vec3(&self.to, step),
+            radius: W::value(&self.radius, step),
+            capped: W::flags(self.capped, step),
+        }
+    }
+}
+
+impl InstanceBlock {
+    /// Packs rows of the instances.
+    pub fn pack(rows: &[u32]) -> Self {
+        let padded = std::array::from_fn(|i| rows.get(i).copied().unwrap_or(u32::MAX));
+        Self { rows: padded, len: rows.len() as u32 }
+    }
+}
+
+/// A block of primitives that rays are tested against.
+pub trait Block {
+    /// How many primitives count.
+    fn len(&self) -> u32;
+    /// Their ids.
+    fn ids(&self) -> &[u32; WIDTH];
+}
+
+macro_rules! block {
+    ($($t:ty),*) => {$(
+        impl Block for $t {
+            #[inline(always)]
+            fn len(&self) -> u32 {
+                self.len
+            }
+            #[inline(always)]
+            fn ids(&self) -> &[u32; WIDTH] {
+                &self.id
+            }
+        }
+    )*};
+}
+block!(TriangleBlock, SphereBlock, CylinderBlock);

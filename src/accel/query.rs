@@ -1,0 +1,149 @@
+//! What is asked of a traversal: the nearest hit, or whether there is one.
+
+use crate::intersect::{LaneHit, RayLanes};
+use crate::math::{BitLane, Lane, Mask};
+
+/// A question put to the tree by the rays of a packet, or by one ray splatted over the lanes.
+pub trait Query<L: Lane> {
+    /// Lanes need nothing at or beyond this `t`; minus infinity where a lane needs nothing more.
+    fn limit(&self) -> L;
+    /// Takes note of candidates; true if any was accepted.
+    fn accept(&mut self, ray: &RayLanes<L>, hit: &LaneHit<L>, ids: L::Bits) -> bool;
+    /// True when no lane needs anything more.
+    fn is_done(&self) -> bool;
+    /// Candidates from now on are seen through this instance; 0 is none.
+    fn enter_instance(&mut self, instance: u32);
+    /// Lanes hold candidates of one and the same ray: brings all to the nearest limit.
+    fn share_limit(&mut self);
+}
+
+/// The nearest hit of each lane.
+///
+/// `prim` and `instance` mean nothing in lanes where `t` is still the ray's `t_max`.
+#[derive(Clone, Copy, Debug)]
+pub struct Closest<L: Lane> {
+    /// Distance.
+    pub t: L,
+    /// As in [`crate::intersect::Hit`].
+    pub u: L,
+    /// As in [`crate::intersect::Hit`].
+    pub v: L,
+    /// Which primitive.
+    pub prim: L::Bits,
+    /// Through which instance; 0 is none.
+    pub instance: L::Bits,
+    current_instance: u32,
+    limit: L,
+}
+
+impl<L: Lane> Closest<L> {
+    /// No hit yet.
+    #[inline(always)]
+    pub fn new(t_max: L) -> Self {
+        let (zero, none) = (L::zero(), L::Bits::splat(0));
+        Self { t: t_max, u: zero, v: zero, prim: none, instance: none, current_instance: 0, limit: t_max }
+    }
+
+    /// Lanes that tie with the hit they hold and win by the lower id.
+    #[cold]
+    fn winning_ties(&self, ties: L::Mask, ids: L::Bits) -> L::Mask {
+        let wins = |i: usize| (ids.get(i), self.current_instance) < (self.prim.get(i), self.instance.get(i));
+        let bits = (0..L::WIDTH).map(|i| u32::from(wins(i)) << i).sum();
+        ties & L::Mask::from_bits(bits)
+    }
+
+    /// The nearest of all lanes, as lane number.
+    pub fn nearest_lane(&self) -> usize {
+        let key = |i: usize| (self.t.get(i), self.prim.get(i), self.instance.get(i));
+        (1..L::WIDTH).fold(0, |best, i| if key(i) < key(best) { i } else { best })
+    }
+}
+
+impl<L: Lane> Query<L> for Closest<L> {
+    #[inline(always)]
+    fn limit(&self) -> L {
+        self.limit
+    }
+    #[inline(always)]
+    fn accept(&mut self, ray: &RayLanes<L>, hit: &LaneHit<L>, ids: L::Bits) -> bool {
+        let candidates = hit.mask & hit.t.gt(ray.t_min);
+        let ties = candidates & hit.t.eq(self.t);
+        let mut closer = candidates & hit.t.lt(self.t);
+        if ties.any() {
+            closer = closer | self.winning_ties(ties, ids);
+        }
+        if !closer.any() {
+            return false;
+        }
+        self.t = L::select(closer, hit.t, self.t);
+        self.u = L::select(closer, hit.u, self.u);
+        self.v = L::select(closer, hit.v, self.v);
+        self.prim = L::select_bits(closer, ids, self.prim);
+        self.instance = L::select_bits(closer, L::Bits::splat(self.current_instance), self.instance);
+        self.limit = self.t;
+        true
+    }
+    #[inline(always)]
+    fn is_done(&self) -> bool {
+        false
+    }
+    #[inline(always)]
+    fn enter_instance(&mut self, instance: u32) {
+        self.current_instance = instance;
+    }
+    #[inline(always)]
+    fn share_limit(&mut self) {
+        let nearest = (1..L::WIDTH).fold(self.t.get(0), |t, i| t.min(self.t.get(i)));
+        self.limit = L::splat(nearest);
+    }
+}
+
+/// Whether each lane hits anything.
+#[derive(Clone, Copy, Debug)]
+pub struct AnyHit<L: Lane> {
+    limit: L,
+    asked: L::Mask,
+    hit: L::Mask,
+}
+
+impl<L: Lane> AnyHit<L> {
+    /// Nothing hit yet; lanes whose `t_max` is minus infinity are not asked.
+    #[inline(always)]
+    pub fn new(t_max: L) -> Self {
+        let asked = t_max.gt(L::constant(f64::NEG_INFINITY));
+        Self { limit: t_max, asked, hit: L::Mask::splat(false) }
+    }
+    /// Lanes that hit something.
+    #[inline(always)]
+    pub fn hits(&self) -> u32 {
+        self.hit.bits()
+    }
+}
+
+impl<L: Lane> Query<L> for AnyHit<L> {
+    #[inline(always)]
+    fn limit(&self) -> L {
+        self.limit
+    }
+    #[inline(always)]
+    fn accept(&mut self, ray: &RayLanes<L>, hit: &LaneHit<L>, _: L::Bits) -> bool {
+        let found = hit.mask & hit.t.gt(ray.t_min) & hit.t.lt(self.limit);
+        if !found.any() {
+            return false;
+        }
+        self.hit = self.hit | found;
+        self.limit = L::select(found, L::constant(f64::NEG_INFINITY), self.limit);
+        true
+    }
+    #[inline(always)]
+    fn is_done(&self) -> bool {
+        !(self.asked & !self.hit).any()
+    }
+    #[inline(always)]
+    fn enter_instance(&mut self, _: u32) {}
+    #[inline(always)]
+    fn share_limit(&mut self) {
+        // One hit ends the ray in all lanes.
+        self.hit = L::Mask::splat(true);
+    }
+}

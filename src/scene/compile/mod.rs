@@ -1,0 +1,95 @@
+//! From what the user wrote to columns: the guarded border, past which nothing needs checking.
+
+mod materials;
+mod objects;
+mod view;
+
+use std::time::{Duration, Instant};
+
+use super::{Background, RenderSettings, Requirements, Scene};
+use crate::accel::Accel;
+use crate::describe::{Fault, SceneDescription};
+use crate::load::LoadError;
+use crate::math::TransformError;
+use materials::MaterialTable;
+use objects::World;
+
+/// Why a description cannot become a scene.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum CompileError {
+    /// The description breaks a rule of its own.
+    #[error("{0}")]
+    Description(Fault),
+    /// A mesh or texture file.
+    #[error(transparent)]
+    Load(#[from] LoadError),
+    /// A transform, alone or composed with those around it.
+    #[error("{what}: {source}")]
+    Transform {
+        /// Which object.
+        what: String,
+        /// What is wrong with it.
+        source: TransformError,
+    },
+    /// A number that is fine as written but not in `f32`, the number type of primitives.
+    #[error("{what}: {value} is out of range: sizes and positions are stored with 24 bits and exponents to 1e38")]
+    OutOfRange {
+        /// Which number of which object.
+        what: String,
+        /// As written, with transforms applied.
+        value: f64,
+    },
+    /// More than the columns can count.
+    #[error("more than {limit} {what}")]
+    TooMany {
+        /// Of what.
+        what: &'static str,
+        /// The most there can be.
+        limit: usize,
+    },
+}
+
+/// How long compiling took.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct CompileTimes {
+    /// Reading meshes and textures, and filling columns.
+    pub load: Duration,
+    /// Building trees.
+    pub build: Duration,
+}
+
+impl Scene {
+    /// Compiles a description: loads its meshes and textures, fills columns, builds trees.
+    ///
+    /// **Errors:** [`CompileError`], naming the object.
+    pub fn compile(description: &SceneDescription) -> Result<Self, CompileError> {
+        let start = Instant::now();
+        description.check().map_err(CompileError::Description)?;
+        let mut table = MaterialTable::new(description)?;
+        let geometry = World::compile(description, &mut table)?;
+        let settings = RenderSettings::of(description);
+        let camera = view::camera(description)?;
+        let lights = view::lights(description);
+        let (materials, textures) = table.finish();
+        let weights = settings.filter.has_negative_lobes();
+        let requirements =
+            Requirements::of(&geometry, &materials, &lights, &camera, settings.max_depth, weights);
+        let load = start.elapsed();
+        let accel = Accel::build(&geometry);
+        let times = CompileTimes { load, build: start.elapsed() - load };
+        let background = Background::of(description);
+        Ok(Self {
+            geometry,
+            accel,
+            materials,
+            textures,
+            lights,
+            camera,
+            background,
+            settings,
+            requirements,
+            times,
+        })
+    }
+}

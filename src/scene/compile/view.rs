@@ -1,0 +1,110 @@
+//! Camera, lights, background and settings.
+
+use super::CompileError;
+use crate::describe::{self, CameraKind, FilterKind, Handedness, SceneDescription};
+use crate::intersect::TierName;
+use crate::math::Transform;
+use crate::sampling::{PixelFilter, SamplerKind};
+use crate::scene::{Background, Camera, Light, Projection, RenderSettings};
+use glam::DVec3;
+
+/// The camera's axes, moved by its transform and scaled to half the picture.
+pub(super) fn camera(description: &SceneDescription) -> Result<Camera, CompileError> {
+    let c = &description.camera;
+    let transform = Transform::from_rows(c.transform.matrix())
+        .map_err(|source| CompileError::Transform { what: "camera".into(), source })?;
+    let place = |p| DVec3::from(transform.point(p));
+    let position = place(c.position);
+    let forward = (place(c.look_at) - position).normalize();
+    let up = DVec3::from(transform.direction(c.up));
+    let right = match c.handedness {
+        Handedness::Right => forward.cross(up).normalize(),
+        Handedness::Left => up.cross(forward).normalize(),
+    };
+    // A mirroring transform mirrors the picture, as it mirrors everything else.
+    let right = if transform.determinant() < 0.0 { -right } else { right };
+    let up = (up - forward * forward.dot(up)).normalize();
+    let (half_height, projection) = projection(c);
+    let [width, height] = description.render.size.map(f64::from);
+    Ok(Camera {
+        position: position.into(),
+        forward: forward.into(),
+        right: (right * half_height * (width / height)).into(),
+        up: (up * half_height).into(),
+        projection,
+        near: c.near,
+    })
+}
+
+fn projection(c: &describe::Camera) -> (f64, Projection) {
+    match c.kind {
+        CameraKind::Orthographic => (0.5 * c.height.unwrap_or(2.0), Projection::Orthographic),
+        CameraKind::Perspective => {
+            let half = libm::tan((0.5 * c.fov_deg).to_radians());
+            let lens =
+                Projection::ThinLens { aperture_radius: c.aperture_radius, focus_distance: c.focus_distance() };
+            (half, if c.aperture_radius > 0.0 { lens } else { Projection::Pinhole })
+        }
+    }
+}
+
+/// All lights that give light.
+pub(super) fn lights(description: &SceneDescription) -> Vec<Light> {
+    let l = &description.light;
+    let power = |color: describe::Rgb, intensity: f64| color.0.map(|c| c * intensity);
+    let unit = |v: DVec3| -> [f64; 3] { v.normalize().into() };
+    let point = l.point.iter().map(|p| Light::Point { position: p.position, power: power(p.color, p.intensity) });
+    let directional = l.directional.iter().map(|d| Light::Directional {
+        to_light: unit(-DVec3::from(d.direction)),
+        power: power(d.color, d.intensity),
+    });
+    let spot = l.spot.iter().map(|s| Light::Spot {
+        position: s.position,
+        axis: unit(DVec3::from(s.look_at) - DVec3::from(s.position)),
+        cos_outer: libm::cos(s.cone_deg.to_radians()),
+        cos_inner: libm::cos((s.cone_deg - s.penumbra_deg).to_radians()),
+        power: power(s.color, s.intensity),
+    });
+    point.chain(directional).chain(spot).filter(|light| light.power().iter().any(|&p| p != 0.0)).collect()
+}
+
+impl Background {
+    pub(super) fn of(description: &SceneDescription) -> Self {
+        let [bottom, top] = description.background.bottom_and_top();
+        Self { bottom, top }
+    }
+}
+
+impl RenderSettings {
+    pub(super) fn of(description: &SceneDescription) -> Self {
+        let r = &description.render;
+        Self {
+            size: r.size,
+            spp: r.spp,
+            max_depth: r.max_depth,
+            seed: r.seed,
+            tier: match r.tier {
+                describe::Tier::Fast => TierName::Fast,
+                describe::Tier::Watertight => TierName::Watertight,
+                describe::Tier::Exact => TierName::Exact,
+            },
+            sampler: match r.sampler {
+                describe::Sampler::Random => SamplerKind::Random,
+                describe::Sampler::Stratified => SamplerKind::Stratified,
+                describe::Sampler::Sobol => SamplerKind::Sobol,
+            },
+            filter: filter(&r.filter),
+            min_throughput: r.min_throughput,
+        }
+    }
+}
+
+fn filter(f: &describe::Filter) -> PixelFilter {
+    let radius = f.radius();
+    match f.kind {
+        FilterKind::Box => PixelFilter::Box { radius },
+        FilterKind::Tent => PixelFilter::Tent { radius },
+        FilterKind::Gaussian => PixelFilter::Gaussian { radius, sigma: f.sigma },
+        FilterKind::Mitchell => PixelFilter::Mitchell { radius, b: f.b, c: f.c },
+    }
+}

@@ -1,0 +1,200 @@
+//! Columns of path states in a worker's arena.
+//!
+//! A queue has a fixed capacity, padded to the packet width, and lives until its arena is reset for the next wave.
+
+use bumpalo::Bump;
+
+use crate::math::{BitLane, Lane, Mask, Real, Vec3, WIDTH};
+
+/// The least multiple of the packet width that holds `n`.
+pub(super) fn padded(n: usize) -> usize {
+    n.next_multiple_of(WIDTH)
+}
+
+/// A column of `n` default values, padded.
+pub(super) fn column<T: Copy + Default>(arena: &Bump, n: usize) -> &mut [T] {
+    arena.alloc_slice_fill_copy(padded(n), T::default())
+}
+
+/// Three columns: a point, a direction or a colour a row.
+pub(super) struct Column3<'a, R>([&'a mut [R]; 3]);
+
+impl<'a, R: Real> Column3<'a, R> {
+    pub(super) fn new(arena: &'a Bump, n: usize) -> Self {
+        Self([column(arena, n), column(arena, n), column(arena, n)])
+    }
+    /// Eight rows from `at` on.
+    #[inline(always)]
+    pub(super) fn load<L: Lane<Scalar = R>>(&self, at: usize) -> Vec3<L> {
+        let [x, y, z] = &self.0;
+        Vec3::new(L::load(&x[at..]), L::load(&y[at..]), L::load(&z[at..]))
+    }
+    /// The rows named by `rows`.
+    #[inline(always)]
+    pub(super) fn gather<L: Lane<Scalar = R>>(&self, rows: &[u32; WIDTH]) -> Vec3<L> {
+        let [x, y, z] = &self.0;
+        let one = |column: &[R]| L::from_fn(|i| column[rows[i] as usize]);
+        Vec3::new(one(x), one(y), one(z))
+    }
+    /// Overwrites eight rows from `at` on.
+    #[inline(always)]
+    pub(super) fn store<L: Lane<Scalar = R>>(&mut self, at: usize, v: Vec3<L>) {
+        let [x, y, z] = &mut self.0;
+        v.x.store(&mut x[at..]);
+        v.y.store(&mut y[at..]);
+        v.z.store(&mut z[at..]);
+    }
+    /// Writes the chosen lanes to consecutive rows from `at` on.
+    #[inline(always)]
+    pub(super) fn compress<L: Lane<Scalar = R>>(&mut self, at: usize, v: Vec3<L>, lanes: u32) {
+        let [x, y, z] = &mut self.0;
+        compress(x, at, v.x, lanes);
+        compress(y, at, v.y, lanes);
+        compress(z, at, v.z, lanes);
+    }
+    /// One row.
+    #[inline(always)]
+    pub(super) fn get(&self, row: usize) -> [R; 3] {
+        [self.0[0][row], self.0[1][row], self.0[2][row]]
+    }
+}
+
+/// Writes the chosen lanes to consecutive rows from `at` on.
+#[inline(always)]
+pub(super) fn compress<L: Lane>(column: &mut [L::Scalar], at: usize, v: L, lanes: u32) {
+    if lanes == L::Mask::splat(true).bits() {
+        return v.store(&mut column[at..]);
+    }
+    let mut at = at;
+    for i in set_bits(lanes) {
+        column[at] = v.get(i);
+        at += 1;
+    }
+}
+
+/// Writes the chosen words to consecutive rows from `at` on.
+#[inline(always)]
+pub(super) fn compress_words<B: BitLane>(column: &mut [u32], at: usize, v: B, lanes: u32) {
+    for (k, i) in set_bits(lanes).enumerate() {
+        column[at + k] = v.get(i);
+    }
+}
+
+/// The numbers of the bits that are set, lowest first.
+#[inline(always)]
+pub(super) fn set_bits(bits: u32) -> impl Iterator<Item = usize> {
+    let mut rest = bits;
+    std::iter::from_fn(move || {
+        let i = rest.trailing_zeros() as usize;
+        rest &= rest.wrapping_sub(1);
+        (i < 32).then_some(i)
+    })
+}
+
+/// Words of eight rows from `at` on.
+#[inline(always)]
+pub(super) fn words(column: &[u32], at: usize) -> &[u32; WIDTH] {
+    column[at..at + WIDTH].try_into().expect("columns are padded to the packet width")
+}
+
+/// Eight entries of a list from `at` on; the last entry stands in for those beyond the end. Also the lanes that count.
+#[inline(always)]
+pub(super) fn list_lanes(list: &[u32], at: usize) -> ([u32; WIDTH], u32) {
+    let rest = &list[at..];
+    if let Some(full) = rest.first_chunk::<WIDTH>() {
+        return (*full, 0xff);
+    }
+    let last = rest.len() - 1;
+    (std::array::from_fn(|i| rest[i.min(last)]), (1 << rest.len()) - 1)
+}
+
+/// Paths of one depth.
+///
+/// **Shape:** each column holds `len` rows, then padding; `medium` and `branch` are empty where the scene needs none.
+pub(super) struct PathQueue<'a, R> {
+    pub(super) len: usize,
+    pub(super) origin: Column3<'a, R>,
+    pub(super) direction: Column3<'a, R>,
+    /// Hits at or before it do not count; only camera rays with a near plane have one.
+    pub(super) t_min: &'a mut [R],
+    /// What part of the radiance along the ray reaches the pixel.
+    pub(super) throughput: Column3<'a, R>,
+    /// Which sample of the wave the path belongs to.
+    pub(super) slot: &'a mut [u32],
+    /// Dielectrics that the ray is inside of, see [`super::medium`].
+    pub(super) medium: &'a mut [u64],
+    /// Which split led here, for the dimensions of random numbers.
+    pub(super) branch: &'a mut [u32],
+}
+
+/// Which columns beside the plain ones paths need.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PathNeeds {
+    pub(super) medium: bool,
+    pub(super) branch: bool,
+}
+
+impl<'a, R: Real> PathQueue<'a, R> {
+    pub(super) fn new(arena: &'a Bump, capacity: usize, needs: PathNeeds) -> Self {
+        let wanted = |yes: bool| if yes { capacity } else { 0 };
+        Self {
+            len: 0,
+            origin: Column3::new(arena, capacity),
+            direction: Column3::new(arena, capacity),
+            t_min: column(arena, capacity),
+            throughput: Column3::new(arena, capacity),
+            slot: column(arena, capacity),
+            medium: column(arena, wanted(needs.medium)),
+            branch: column(arena, wanted(needs.branch)),
+        }
+    }
+
+    /// Appends the chosen lanes.
+    #[inline(always)]
+    pub(super) fn push<L: Lane<Scalar = R>>(&mut self, paths: &PathLanes<L>, lanes: u32) {
+        let at = self.len;
+        self.origin.compress(at, paths.origin, lanes);
+        self.direction.compress(at, paths.direction, lanes);
+        self.throughput.compress(at, paths.throughput, lanes);
+        for (k, i) in set_bits(lanes).enumerate() {
+            self.slot[at + k] = paths.slot[i];
+            if let Some(medium) = self.medium.get_mut(at + k) {
+                *medium = paths.medium[i];
+            }
+            if let Some(branch) = self.branch.get_mut(at + k) {
+                *branch = paths.branch[i];
+            }
+        }
+        self.len += lanes.count_ones() as usize;
+    }
+}
+
+/// Paths as lanes, on their way into a queue.
+pub(super) struct PathLanes<L> {
+    pub(super) origin: Vec3<L>,
+    pub(super) direction: Vec3<L>,
+    pub(super) throughput: Vec3<L>,
+    pub(super) slot: [u32; WIDTH],
+    pub(super) medium: [u64; WIDTH],
+    pub(super) branch: [u32; WIDTH],
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn compress_keeps_the_order_of_lanes() {
+        let mut column = [0.0f32; 16];
+        let v = wide::f32x8::new([0., 1., 2., 3., 4., 5., 6., 7.]);
+        compress(&mut column, 3, v, 0b1010_0110);
+        assert_eq!(column[3..7], [1.0, 2.0, 5.0, 7.0]);
+        assert_eq!(column[7], 0.0);
+    }
+
+    #[test]
+    fn the_last_entry_stands_in_beyond_a_list() {
+        assert_eq!(list_lanes(&[4, 9, 2], 0), ([4, 9, 2, 2, 2, 2, 2, 2], 0b111));
+        assert_eq!(list_lanes(&[0, 1, 2, 3, 4, 5, 6, 7, 8], 0), ([0, 1, 2, 3, 4, 5, 6, 7], 0xff));
+    }
+}
