@@ -58,9 +58,6 @@ pub struct SceneArgs {
 /// Arguments of `octray render`.
 #[derive(Debug, clap::Args)]
 pub struct RenderArgs {
-    /// Which scene, and changes to it.
-    #[command(flatten)]
-    pub scene: SceneArgs,
     /// Picture file (ppm, png, exr, pfm); `-` for standard output [default: the scene's name with .png]
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
@@ -91,6 +88,9 @@ pub struct RenderArgs {
     /// How progress is shown on standard error
     #[arg(long, value_name = "HOW", default_value = "auto")]
     pub progress: ProgressMode,
+    /// Which scene, and changes to it.
+    #[command(flatten)]
+    pub scene: SceneArgs,
     /// Say nothing but errors (an explicit --progress is still obeyed)
     #[arg(short, long)]
     pub quiet: bool,

@@ -14,6 +14,7 @@ mod memory;
 mod pipeline;
 mod progress;
 pub mod render;
+mod rhythm;
 pub mod scenes;
 pub mod schema;
 mod signals;

@@ -10,8 +10,8 @@ use serde_json::{Value, json};
 
 use super::args::ProgressMode;
 use super::error::CliError;
-use super::human;
 use super::pipeline::Progress;
+use super::rhythm::{Rhythm, millionths, speed, time_left};
 use super::stdio::say;
 use super::summary::Summary;
 
@@ -38,7 +38,7 @@ impl Reporter {
     pub(super) fn new(mode: ProgressMode, quiet: bool) -> Self {
         let style = style(mode, quiet, std::io::stderr().is_terminal());
         Self {
-            rhythm: Mutex::new(Rhythm::of(&style)),
+            rhythm: Mutex::new(style.rhythm()),
             style,
             quiet,
             begun: OnceLock::new(),
@@ -128,6 +128,16 @@ impl Reporter {
     }
 }
 
+impl Style {
+    fn rhythm(&self) -> Rhythm {
+        match self {
+            Self::Bar(_) => Rhythm::every(Duration::from_millis(100)),
+            Self::Json => Rhythm::every(Duration::from_millis(500)),
+            Self::Plain | Self::Silent => Rhythm::by_tenths(),
+        }
+    }
+}
+
 fn style(mode: ProgressMode, quiet: bool, terminal: bool) -> Style {
     match mode {
         ProgressMode::None => Style::Silent,
@@ -141,58 +151,6 @@ fn style(mode: ProgressMode, quiet: bool, terminal: bool) -> Style {
 fn bar() -> ProgressBar {
     let style = ProgressStyle::with_template("{bar:32} {percent:>3} %, {msg}").unwrap();
     ProgressBar::new(0).with_style(style.progress_chars("=> "))
-}
-
-/// When progress is shown.
-#[derive(Debug)]
-struct Rhythm {
-    /// No sooner than this after the last time.
-    least: Duration,
-    /// No later, even if no further tenth is done.
-    most: Duration,
-    last: Duration,
-    last_tenth: u64,
-}
-
-impl Rhythm {
-    fn of(style: &Style) -> Self {
-        let [least, most] = match style {
-            Style::Bar(_) => [100, 100],
-            Style::Json => [500, 500],
-            Style::Plain | Style::Silent => [1_000, 30_000],
-        };
-        let [least, most] = [least, most].map(Duration::from_millis);
-        Self { least, most, last: Duration::ZERO, last_tenth: 0 }
-    }
-
-    fn is_due(&mut self, elapsed: Duration, tenth: u64) -> bool {
-        let since = elapsed.saturating_sub(self.last);
-        let is_due = since >= self.most || (since >= self.least && tenth > self.last_tenth);
-        if is_due {
-            (self.last, self.last_tenth) = (elapsed, tenth);
-        }
-        is_due
-    }
-}
-
-fn millionths(progress: &Progress) -> u64 {
-    let share = u128::from(progress.pixels_done) * 1_000_000 / u128::from(progress.pixels_total.max(1));
-    share.min(1_000_000) as u64
-}
-
-/// Rays a second and time left.
-fn speed(progress: &Progress, elapsed: Duration) -> String {
-    let rate = human::ray_rate(progress.rays, elapsed);
-    match time_left(progress, elapsed) {
-        Some(left) => format!("{rate}, {} left", human::time(left)),
-        None => rate,
-    }
-}
-
-fn time_left(progress: &Progress, elapsed: Duration) -> Option<Duration> {
-    let left = progress.pixels_total.saturating_sub(progress.pixels_done) as f64;
-    let seconds = elapsed.as_secs_f64() * left / progress.pixels_done as f64;
-    Duration::try_from_secs_f64(seconds).ok()
 }
 
 fn progress_event(progress: &Progress, elapsed: Duration) -> Value {
@@ -237,34 +195,6 @@ mod tests {
         assert_eq!(name(ProgressMode::Bar, false, false), "plain");
         assert_eq!(name(ProgressMode::Json, true, true), "json");
         assert_eq!(name(ProgressMode::None, false, true), "silent");
-    }
-
-    #[test]
-    fn lines_come_by_tenths_or_half_minutes() {
-        let mut rhythm = Rhythm::of(&Style::Plain);
-        assert!(!rhythm.is_due(seconds(0.5), 9), "too soon after the start");
-        assert!(rhythm.is_due(seconds(2.0), 1));
-        assert!(!rhythm.is_due(seconds(4.0), 1), "no further tenth");
-        assert!(rhythm.is_due(seconds(32.0), 1), "half a minute later");
-        assert!(rhythm.is_due(seconds(33.0), 2));
-        let lines = (0..10_000).filter(|&i| rhythm.is_due(seconds(40.0 + i as f64 * 0.01), 2 + i / 1250));
-        assert_eq!(lines.count(), 7, "one a tenth, as tenths follow within half a minute");
-    }
-
-    #[test]
-    fn shares_and_times_survive_their_ends() {
-        assert_eq!(millionths(&progress(0, 0)), 0);
-        assert_eq!(millionths(&progress(5, 4)), 1_000_000);
-        assert_eq!(millionths(&progress(u64::MAX / 2, u64::MAX)), 499_999);
-        assert_eq!(time_left(&progress(0, 10), seconds(1.0)), None);
-        assert_eq!(time_left(&progress(10, 10), seconds(1.0)), Some(Duration::ZERO));
-        assert_eq!(time_left(&progress(1, 4), seconds(2.0)), Some(seconds(6.0)));
-    }
-
-    #[test]
-    fn speed_says_rays_and_time_left() {
-        assert_eq!(speed(&progress(1, 4), seconds(2.0)), "1.00 Mrays/s, 6.00 s left");
-        assert_eq!(speed(&progress(0, 4), Duration::ZERO), "- Mrays/s");
     }
 
     #[test]

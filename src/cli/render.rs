@@ -55,8 +55,6 @@ fn render(
     reporter.begin();
     pipeline::render(scene, &options).map_err(|error| match error {
         RenderError::Cancelled => interrupted(reporter, destination),
-        #[allow(unreachable_patterns, reason = "there will be more")]
-        other => CliError::of(Exit::Failed, other),
     })
 }
 

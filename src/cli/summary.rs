@@ -43,6 +43,7 @@ impl Summary {
             "height": self.size[1],
             "samples": report.samples,
             "nan_samples": report.nan_samples,
+            "nan_values_written_as_zero": self.written.nan_values,
             "rays": {
                 "camera": rays.camera, "shadow": rays.shadow, "reflected": rays.reflected,
                 "refracted": rays.refracted, "diffuse": rays.diffuse, "total": self.rays(),
@@ -92,7 +93,8 @@ impl fmt::Display for Summary {
         let (simd, threads) = (simd::BUILT_FOR.name(), report.threads);
         writeln!(f, "machine  {simd}, {threads} threads, peak memory {memory}")?;
         // Always said, so that a zero is known and not only missing.
-        writeln!(f, "samples that were not a number: {}", report.nan_samples)?;
+        let (samples, values) = (report.nan_samples, self.written.nan_values);
+        writeln!(f, "checks   {samples} samples were not a number, {values} values written as 0 for it")?;
         write!(f, "picture  {}, {}", self.output, human::bytes(self.written.size_bytes))
     }
 }
@@ -132,7 +134,7 @@ mod tests {
             "load 0.12 ms, build 0.34 ms, render 500 ms, write 7.00 ms",
             simd::BUILT_FOR.name(),
             "2 threads, peak memory unknown",
-            "not a number: 0",
+            "0 samples were not a number, 0 values",
             "seed.png, 346 kB",
         ] {
             assert!(text.contains(part), "{part} in\n{text}");

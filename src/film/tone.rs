@@ -99,8 +99,8 @@ fn encode(pixels: &[[f32; 3]], tone: Tone, bytes: &mut Vec<u8>, curve: impl Fn([
 
 /// Light after exposure, finite and not negative; NaN gives 0.
 fn expose(value: f32, gain: f32) -> f32 {
-    // `max` prefers the number to NaN. Infinity times the least gain is still far above `BRIGHTEST`.
-    (value.max(0.0).min(f32::MAX) * gain).min(BRIGHTEST)
+    // Infinity times the least gain is still far above `BRIGHTEST`.
+    if value > 0.0 { (value.min(f32::MAX) * gain).min(BRIGHTEST) } else { 0.0 }
 }
 
 fn reinhard(light: [f32; 3]) -> [f32; 3] {

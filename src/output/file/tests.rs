@@ -141,7 +141,9 @@ mod unix {
         let folder = tempfile::tempdir().unwrap();
         let (file, link) = (folder.path().join("file.ppm"), folder.path().join("link.ppm"));
         for before in [None, Some("old")] {
-            before.map(|text| fs::write(&file, text).unwrap());
+            if let Some(text) = before {
+                fs::write(&file, text).unwrap();
+            }
             let _ = symlink("file.ppm", &link);
             write_atomically(&link, b"new").unwrap();
             assert_eq!(fs::read_link(&link).unwrap(), Path::new("file.ppm"));
