@@ -1,3 +1,17 @@
-//! The `octray` program.
+//! The `octray` program: arguments, one match, exit code.
 
-fn main() {}
+use std::process::ExitCode;
+
+use clap::Parser;
+use octray::cli::{Args, Verb, completions, exit_code, inspect, man, render, scenes, schema};
+
+fn main() -> ExitCode {
+    exit_code(match Args::parse().verb {
+        Verb::Render(args) => render::run(&args),
+        Verb::Inspect(args) => inspect::run(&args),
+        Verb::Scenes(args) => scenes::run(&args),
+        Verb::Schema => schema::run(),
+        Verb::Completions(args) => completions::run(&args),
+        Verb::Man(args) => man::run(&args),
+    })
+}

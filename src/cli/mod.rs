@@ -1,1 +1,28 @@
-//! One file a verb.
+//! The command line: one file a verb, and what the verbs share.
+//!
+//! Data goes to standard output, everything else to standard error. Exit codes: 0 done, 1 failed while running,
+//! 2 wrong use, 3 bad scene or asset.
+
+mod args;
+pub mod completions;
+mod destination;
+mod error;
+mod human;
+pub mod inspect;
+pub mod man;
+mod memory;
+mod pipeline;
+mod progress;
+pub mod render;
+mod rhythm;
+pub mod scenes;
+pub mod schema;
+mod signals;
+mod simd;
+mod source;
+mod stdio;
+mod summary;
+
+pub use args::{Args, CompletionsArgs, ManArgs, ProgressMode, RenderArgs, SceneArgs, ScenesArgs, Tier, Verb};
+pub use error::{CliError, Exit, exit_code};
+pub use source::SceneSource;

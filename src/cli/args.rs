@@ -1,0 +1,242 @@
+//! What can be written on the command line.
+
+use std::path::PathBuf;
+
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use clap::{Parser, Subcommand, ValueEnum, ValueHint};
+
+use super::simd;
+use super::source::SceneSource;
+use crate::output::Format;
+
+const EXIT_CODES: &str = "\
+Exit codes:
+  0  done
+  1  failed while running (files, memory, interrupted)
+  2  wrong use
+  3  bad scene or asset
+
+Data goes to standard output, everything else to standard error. NO_COLOR is honoured.";
+
+/// A data-oriented CPU ray tracer: a scene becomes a picture.
+#[derive(Debug, Parser)]
+#[command(name = "octray", version = simd::VERSION, after_help = EXIT_CODES, arg_required_else_help = true)]
+pub struct Args {
+    /// What to do.
+    #[command(subcommand)]
+    pub verb: Verb,
+}
+
+/// What the program can do.
+#[derive(Debug, Subcommand)]
+pub enum Verb {
+    /// Render a scene to a picture
+    Render(Box<RenderArgs>),
+    /// Show what a scene holds and which stages it needs
+    Inspect(SceneArgs),
+    /// List the built-in scenes, or print one as a scene file
+    Scenes(ScenesArgs),
+    /// Print the JSON Schema of scene files
+    Schema,
+    /// Print the completion script of a shell
+    Completions(CompletionsArgs),
+    /// Print a manual page (to read it: octray man | man -l -)
+    Man(ManArgs),
+}
+
+/// Which scene, and changes to it.
+#[derive(Debug, clap::Args)]
+pub struct SceneArgs {
+    /// Scene file (TOML), mesh (OBJ, PLY, STL), `-` for standard input, or the name of a built-in scene
+    #[arg(default_value = "seed", value_parser = SceneSource::parse, value_hint = ValueHint::FilePath)]
+    pub scene: SceneSource,
+    /// Replace a value of the scene, such as camera.fov_deg=40; may be repeated
+    #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_assignment)]
+    pub assignments: Vec<(String, String)>,
+}
+
+/// Arguments of `octray render`.
+#[derive(Debug, clap::Args)]
+pub struct RenderArgs {
+    /// Picture file (ppm, png, exr, pfm); `-` for standard output [default: the scene's name with .png]
+    #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub output: Option<PathBuf>,
+    /// Picture format [default: by the output's extension; ppm on standard output]
+    #[arg(long, value_parser = PossibleValuesParser::new(Format::NAMES).try_map(|name| name.parse::<Format>()))]
+    pub format: Option<Format>,
+    /// Width and height in pixels, such as 640x480
+    #[arg(long, value_name = "WxH", value_parser = parse_size)]
+    pub size: Option<[u32; 2]>,
+    /// Samples a pixel
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
+    pub spp: Option<u32>,
+    /// How many times a path may be reflected, refracted or scattered
+    #[arg(long, value_name = "N")]
+    pub max_depth: Option<u32>,
+    /// Number that chooses the random sequences
+    #[arg(long, value_name = "N")]
+    pub seed: Option<u64>,
+    /// Threads; 0 for all that this process may use
+    #[arg(long, value_name = "N", default_value_t = 0, value_parser = clap::value_parser!(u16).range(0..=4096))]
+    pub threads: u16,
+    /// How exactly rays are intersected
+    #[arg(long)]
+    pub tier: Option<Tier>,
+    /// Render only this part of the picture: left, top, width, height in pixels
+    #[arg(long, value_name = "X,Y,W,H", value_parser = parse_crop)]
+    pub crop: Option<[u32; 4]>,
+    /// How progress is shown on standard error
+    #[arg(long, value_name = "HOW", default_value = "auto")]
+    pub progress: ProgressMode,
+    /// Which scene, and changes to it.
+    #[command(flatten)]
+    pub scene: SceneArgs,
+    /// Say nothing but errors (an explicit --progress is still obeyed)
+    #[arg(short, long)]
+    pub quiet: bool,
+}
+
+/// Arguments of `octray scenes`.
+#[derive(Debug, clap::Args)]
+pub struct ScenesArgs {
+    /// Print this scene as a scene file
+    #[arg(long, value_name = "NAME")]
+    pub write: Option<String>,
+}
+
+/// Arguments of `octray completions`.
+#[derive(Debug, clap::Args)]
+pub struct CompletionsArgs {
+    /// The shell
+    pub shell: clap_complete::Shell,
+}
+
+/// Arguments of `octray man`.
+#[derive(Debug, clap::Args)]
+pub struct ManArgs {
+    /// The verb to describe [default: the whole program]
+    pub verb: Option<String>,
+}
+
+/// How exactly rays are intersected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum Tier {
+    /// Quickest; may lose rays between triangles
+    Fast,
+    /// No ray is lost between triangles; the same picture everywhere
+    Watertight,
+    /// Double precision
+    Exact,
+}
+
+/// How progress is shown.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ProgressMode {
+    /// A bar on a terminal, else lines
+    Auto,
+    /// A bar
+    Bar,
+    /// A line every tenth or every 30 seconds
+    Plain,
+    /// One JSON object a line; the last is `done` or `failed`
+    Json,
+    /// Nothing
+    None,
+}
+
+impl RenderArgs {
+    /// All changes to the scene in the order in which they apply: flags are short for assignments and win over them.
+    pub fn assignments(&self) -> Vec<(String, String)> {
+        let tier = self.tier.and_then(|tier| tier.to_possible_value());
+        let flags = [
+            ("render.size", self.size.map(|[width, height]| format!("[{width}, {height}]"))),
+            ("render.spp", self.spp.map(|count| count.to_string())),
+            ("render.max_depth", self.max_depth.map(|depth| depth.to_string())),
+            ("render.seed", self.seed.map(|seed| seed.to_string())),
+            ("render.tier", tier.map(|tier| format!("\"{}\"", tier.get_name()))),
+        ];
+        let given = flags.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?)));
+        self.scene.assignments.iter().cloned().chain(given).collect()
+    }
+}
+
+fn parse_size(text: &str) -> Result<[u32; 2], String> {
+    let side = |text: &str| text.parse::<u32>().ok().filter(|&side| side > 0);
+    text.split_once('x')
+        .and_then(|(width, height)| Some([side(width)?, side(height)?]))
+        .ok_or_else(|| "expected width x height in pixels, neither zero, such as 640x480".into())
+}
+
+fn parse_crop(text: &str) -> Result<[u32; 4], String> {
+    let numbers: Result<Vec<u32>, _> = text.split(',').map(|number| number.trim().parse()).collect();
+    match numbers.ok().and_then(|numbers| <[u32; 4]>::try_from(numbers).ok()) {
+        Some(crop) if crop[2] > 0 && crop[3] > 0 => Ok(crop),
+        _ => Err("expected left,top,width,height in pixels, width and height not zero".into()),
+    }
+}
+
+fn parse_assignment(text: &str) -> Result<(String, String), String> {
+    match text.split_once('=') {
+        Some((key, value)) if !key.trim().is_empty() => Ok((key.trim().into(), value.trim().into())),
+        _ => Err("expected key=value, such as camera.fov_deg=40".into()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    fn render(line: &str) -> RenderArgs {
+        match Args::parse_from(["octray", "render"].into_iter().chain(line.split_whitespace())).verb {
+            Verb::Render(args) => *args,
+            other => panic!("{other:?}"),
+        }
+    }
+
+    #[test]
+    fn the_command_is_consistent() {
+        Args::command().debug_assert();
+    }
+
+    #[test]
+    fn sizes_and_crops() {
+        assert_eq!(parse_size("640x480"), Ok([640, 480]));
+        for bad in ["", "640", "0x480", "640x0", "x", "-1x5", "1e3x5", "640x480x3", "5000000000x1"] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+        assert_eq!(parse_crop("0,1, 20,30"), Ok([0, 1, 20, 30]));
+        for bad in ["", "1,2,3", "1,2,3,0", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4"] {
+            assert!(parse_crop(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn assignments_keep_what_follows_the_first_sign() {
+        let pair = |key: &str, value: &str| Ok((key.to_owned(), value.to_owned()));
+        assert_eq!(parse_assignment("material.0.name=a=b"), pair("material.0.name", "a=b"));
+        assert_eq!(parse_assignment("camera.fov_deg = 40"), pair("camera.fov_deg", "40"));
+        for bad in ["", "=", "=4", "camera"] {
+            assert!(parse_assignment(bad).is_err(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn flags_are_short_for_assignments_and_come_last() {
+        let args = render("a.toml --spp 4 --set render.spp=9 --size 3x2 --seed 7 --max-depth 0 --tier exact");
+        let assignments: Vec<String> =
+            args.assignments().iter().map(|(key, value)| format!("{key}={value}")).collect();
+        assert_eq!(
+            assignments,
+            [
+                "render.spp=9",
+                "render.size=[3, 2]",
+                "render.spp=4",
+                "render.max_depth=0",
+                "render.seed=7",
+                "render.tier=\"exact\""
+            ]
+        );
+        assert!(render("").assignments().is_empty());
+    }
+}

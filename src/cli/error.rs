@@ -1,0 +1,144 @@
+//! The program's one error: what was tried, why it failed, and the exit code.
+
+use std::error::Error;
+use std::fmt;
+use std::process::ExitCode;
+
+use super::stdio::say;
+use crate::output::OutputError;
+
+/// Why the program ends without success, as its exit code.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Exit {
+    /// Failed while running: files, memory, interrupted.
+    Failed = 1,
+    /// Wrong use of the command line.
+    Usage = 2,
+    /// A bad scene or asset.
+    Scene = 3,
+}
+
+/// Why a verb failed.
+#[derive(Debug)]
+pub struct CliError {
+    exit: Exit,
+    context: String,
+    cause: Option<Box<dyn Error + Send + Sync>>,
+    told: bool,
+}
+
+impl CliError {
+    /// An error with this exit code and text.
+    pub fn new(exit: Exit, context: impl Into<String>) -> Self {
+        Self { exit, context: context.into(), cause: None, told: false }
+    }
+
+    /// An error whose text is that of `cause`.
+    pub fn of(exit: Exit, cause: impl Error + Send + Sync + 'static) -> Self {
+        let context = cause.to_string();
+        // The text is already there; what lies below it is not.
+        let below = cause.source().map(|below| chain(below).into());
+        Self { exit, context, cause: below, told: false }
+    }
+
+    /// The error with the reason behind it.
+    #[must_use]
+    pub fn because(mut self, cause: impl Into<Box<dyn Error + Send + Sync>>) -> Self {
+        self.cause = Some(cause.into());
+        self
+    }
+
+    /// The same error, marked as already shown to the user.
+    #[must_use]
+    pub fn told(mut self) -> Self {
+        self.told = true;
+        self
+    }
+
+    fn tell(&self) {
+        if !self.told {
+            say(&format!("error: {self}"));
+        }
+    }
+
+    /// The exit code.
+    pub fn exit(&self) -> Exit {
+        self.exit
+    }
+}
+
+impl fmt::Display for CliError {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(&self.context)?;
+        match &self.cause {
+            Some(cause) => write!(f, ": {}", chain(cause.as_ref())),
+            None => Ok(()),
+        }
+    }
+}
+
+impl Error for CliError {}
+
+impl From<OutputError> for CliError {
+    fn from(error: OutputError) -> Self {
+        let exit = match error {
+            OutputError::UnknownFormat { .. } => Exit::Usage,
+            OutputError::Malformed { .. } => Exit::Scene,
+            OutputError::Write { .. } | OutputError::Read { .. } => Exit::Failed,
+        };
+        Self::of(exit, error)
+    }
+}
+
+/// The exit code of a verb's outcome; tells the user what went wrong unless that was done.
+pub fn exit_code(outcome: Result<(), CliError>) -> ExitCode {
+    match outcome {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            error.tell();
+            ExitCode::from(error.exit as u8)
+        }
+    }
+}
+
+/// Ends the program at once, from any thread, with this error.
+pub(super) fn end_program(error: &CliError) -> ! {
+    error.tell();
+    std::process::exit(error.exit as i32)
+}
+
+/// The texts of an error and all behind it.
+fn chain(error: &dyn Error) -> String {
+    let mut text = error.to_string();
+    let mut next = error.source();
+    while let Some(cause) = next {
+        text.push_str(": ");
+        text.push_str(&cause.to_string());
+        next = cause.source();
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io;
+    use std::path::PathBuf;
+
+    #[test]
+    fn every_cause_is_said_once() {
+        let cause = io::Error::from(io::ErrorKind::StorageFull);
+        let error = CliError::from(OutputError::Write { path: PathBuf::from("a.png"), cause });
+        assert_eq!(error.to_string(), "cannot write a.png: no storage space");
+        assert_eq!(error.exit(), Exit::Failed);
+        let error = CliError::new(Exit::Scene, "scene").because(error);
+        assert_eq!(error.to_string(), "scene: cannot write a.png: no storage space");
+    }
+
+    #[test]
+    fn exit_codes_have_their_numbers() {
+        assert_eq!([Exit::Failed as u8, Exit::Usage as u8, Exit::Scene as u8], [1, 2, 3]);
+        let unknown = OutputError::UnknownFormat { path: "a.jpg".into() };
+        assert_eq!(CliError::from(unknown).exit(), Exit::Usage);
+    }
+}

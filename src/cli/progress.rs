@@ -1,0 +1,224 @@
+//! How far a render is, on standard error: a bar, lines, JSON objects or nothing; then how it ended, once.
+
+use std::io::IsTerminal;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
+use std::sync::{Mutex, OnceLock};
+use std::time::{Duration, Instant};
+
+use indicatif::{ProgressBar, ProgressStyle};
+use serde_json::{Value, json};
+
+use super::args::ProgressMode;
+use super::error::CliError;
+use super::pipeline::Progress;
+use super::rhythm::{Rhythm, millionths, speed, time_left};
+use super::stdio::say;
+use super::summary::Summary;
+
+/// Tells the user how a render goes. All threads may call it.
+pub(super) struct Reporter {
+    style: Style,
+    quiet: bool,
+    begun: OnceLock<Instant>,
+    rhythm: Mutex<Rhythm>,
+    /// Share of the picture done, in millionths.
+    done_millionths: AtomicU64,
+    ended: AtomicBool,
+}
+
+enum Style {
+    Bar(ProgressBar),
+    Plain,
+    Json,
+    Silent,
+}
+
+impl Reporter {
+    /// A reporter for this mode; `auto` looks at standard error, and a bar needs a terminal.
+    pub(super) fn new(mode: ProgressMode, quiet: bool) -> Self {
+        let style = style(mode, quiet, std::io::stderr().is_terminal());
+        Self {
+            rhythm: Mutex::new(style.rhythm()),
+            style,
+            quiet,
+            begun: OnceLock::new(),
+            done_millionths: AtomicU64::new(0),
+            ended: AtomicBool::new(false),
+        }
+    }
+
+    /// Says something that is no error, unless the user wants quiet.
+    pub(super) fn warn(&self, text: &str) {
+        match self.style {
+            _ if self.quiet => {}
+            Style::Json => say(&json!({ "event": "warning", "message": text }).to_string()),
+            _ => say(&format!("warning: {text}")),
+        }
+    }
+
+    /// Starts the clock of the render.
+    pub(super) fn begin(&self) {
+        self.begun.get_or_init(Instant::now);
+    }
+
+    /// Time since the render began.
+    pub(super) fn elapsed(&self) -> Duration {
+        self.begun.get().map_or(Duration::ZERO, Instant::elapsed)
+    }
+
+    /// The share of the picture that is done, in percent.
+    pub(super) fn percent_done(&self) -> u64 {
+        self.done_millionths.load(Relaxed) / 10_000
+    }
+
+    /// Takes note of progress and shows it when it is time to.
+    pub(super) fn advance(&self, progress: &Progress) {
+        let millionths = millionths(progress);
+        self.done_millionths.fetch_max(millionths, Relaxed);
+        // A thread that finds another one showing progress goes back to work.
+        let Ok(mut rhythm) = self.rhythm.try_lock() else { return };
+        let elapsed = self.elapsed();
+        if rhythm.is_due(elapsed, millionths / 100_000) {
+            self.show(progress, elapsed);
+        }
+    }
+
+    /// Ends the render well: the summary, or the event `done`.
+    pub(super) fn done(&self, summary: &Summary) {
+        if !self.end() {
+            return;
+        }
+        match self.style {
+            Style::Json => say(&summary.to_json().to_string()),
+            _ if self.quiet => {}
+            _ => say(&summary.to_string()),
+        }
+    }
+
+    /// Ends the render badly; in JSON this tells the user and marks the error as told.
+    pub(super) fn failed(&self, error: CliError) -> CliError {
+        if !self.end() || !matches!(self.style, Style::Json) {
+            return error;
+        }
+        say(&failed_event(&error).to_string());
+        error.told()
+    }
+
+    /// Whether this is the first call; later ones are too late to say anything.
+    fn end(&self) -> bool {
+        if let Style::Bar(bar) = &self.style {
+            bar.finish_and_clear();
+        }
+        !self.ended.swap(true, Relaxed)
+    }
+
+    fn show(&self, progress: &Progress, elapsed: Duration) {
+        match &self.style {
+            Style::Bar(bar) => {
+                bar.set_length(progress.pixels_total);
+                bar.set_message(speed(progress, elapsed));
+                bar.set_position(progress.pixels_done);
+            }
+            Style::Plain => {
+                say(&format!("{:>3} %, {}", millionths(progress) / 10_000, speed(progress, elapsed)));
+            }
+            Style::Json => say(&progress_event(progress, elapsed).to_string()),
+            Style::Silent => {}
+        }
+    }
+}
+
+impl Style {
+    fn rhythm(&self) -> Rhythm {
+        match self {
+            Self::Bar(_) => Rhythm::every(Duration::from_millis(100)),
+            Self::Json => Rhythm::every(Duration::from_millis(500)),
+            Self::Plain | Self::Silent => Rhythm::by_tenths(),
+        }
+    }
+}
+
+fn style(mode: ProgressMode, quiet: bool, terminal: bool) -> Style {
+    match mode {
+        ProgressMode::None => Style::Silent,
+        ProgressMode::Auto if quiet => Style::Silent,
+        ProgressMode::Auto | ProgressMode::Bar if terminal => Style::Bar(bar()),
+        ProgressMode::Json => Style::Json,
+        ProgressMode::Auto | ProgressMode::Bar | ProgressMode::Plain => Style::Plain,
+    }
+}
+
+fn bar() -> ProgressBar {
+    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %, {msg}").unwrap();
+    ProgressBar::new(0).with_style(style.progress_chars("=> "))
+}
+
+fn progress_event(progress: &Progress, elapsed: Duration) -> Value {
+    json!({
+        "event": "progress",
+        "pixels_done": progress.pixels_done,
+        "pixels_total": progress.pixels_total,
+        "rays": progress.rays,
+        "elapsed_s": elapsed.as_secs_f64(),
+        "left_s": time_left(progress, elapsed).map(|left| left.as_secs_f64()),
+    })
+}
+
+fn failed_event(error: &CliError) -> Value {
+    json!({ "event": "failed", "exit_code": error.exit() as u8, "error": error.to_string() })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cli::Exit;
+
+    fn seconds(count: f64) -> Duration {
+        Duration::from_secs_f64(count)
+    }
+
+    fn progress(pixels_done: u64, pixels_total: u64) -> Progress {
+        Progress { pixels_done, pixels_total, rays: 2_000_000 }
+    }
+
+    #[test]
+    fn modes_choose_their_style() {
+        let name = |mode, quiet, terminal| match style(mode, quiet, terminal) {
+            Style::Bar(_) => "bar",
+            Style::Plain => "plain",
+            Style::Json => "json",
+            Style::Silent => "silent",
+        };
+        assert_eq!(name(ProgressMode::Auto, false, true), "bar");
+        assert_eq!(name(ProgressMode::Auto, false, false), "plain");
+        assert_eq!(name(ProgressMode::Auto, true, true), "silent");
+        assert_eq!(name(ProgressMode::Bar, false, false), "plain");
+        assert_eq!(name(ProgressMode::Json, true, true), "json");
+        assert_eq!(name(ProgressMode::None, false, true), "silent");
+    }
+
+    #[test]
+    fn events_are_one_line() {
+        let event = progress_event(&progress(1, 4), seconds(2.0));
+        assert_eq!((&event["event"], &event["left_s"]), (&json!("progress"), &json!(6.0)));
+        let event = failed_event(&CliError::new(Exit::Scene, "two\nlines \"quoted\""));
+        assert!(!event.to_string().contains('\n'));
+        assert_eq!(event["exit_code"], 3);
+    }
+
+    #[test]
+    fn only_the_first_end_counts() {
+        let reporter = Reporter::new(ProgressMode::None, true);
+        assert!(reporter.end());
+        assert!(!reporter.end());
+    }
+
+    #[test]
+    fn progress_never_goes_back() {
+        let reporter = Reporter::new(ProgressMode::None, true);
+        reporter.begin();
+        reporter.advance(&progress(3, 4));
+        reporter.advance(&progress(2, 4));
+        assert_eq!(reporter.percent_done(), 75);
+    }
+}

@@ -1,0 +1,116 @@
+//! Files and streams that cannot be written, through the real binary.
+
+use std::fs;
+use std::path::Path;
+use std::process::Stdio;
+
+use assert_cmd::Command;
+
+fn octray(arguments: &[&str]) -> Command {
+    let mut command = Command::cargo_bin("octray").unwrap();
+    command.args(arguments);
+    command
+}
+
+/// Standard error of a run that must end with `code` and print no data.
+fn stderr_of(arguments: &[&str], code: i32) -> String {
+    let output = octray(arguments).assert().code(code).get_output().clone();
+    assert!(output.stdout.is_empty(), "{arguments:?} printed data");
+    String::from_utf8(output.stderr).unwrap()
+}
+
+fn text(path: &Path) -> &str {
+    path.to_str().unwrap()
+}
+
+#[test]
+fn a_missing_folder_is_known_before_rendering() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("missing/a.png");
+    let error = stderr_of(&["render", "-o", text(&path)], 1);
+    assert!(error.starts_with(&format!("error: cannot write {}: ", text(&path))), "{error}");
+    assert_eq!(error.lines().count(), 1, "{error}");
+}
+
+#[test]
+fn a_folder_is_no_output() {
+    let folder = tempfile::tempdir().unwrap();
+    let error = stderr_of(&["render", "--format", "png", "-o", text(folder.path())], 1);
+    assert!(error.contains("directory"), "{error}");
+}
+
+#[test]
+fn a_file_is_no_folder() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "text").unwrap();
+    stderr_of(&["render", "-o", text(&file.join("a.png"))], 1);
+    assert_eq!(fs::read(&file).unwrap(), b"text");
+}
+
+#[test]
+fn failing_in_json_is_one_object_and_nothing_else() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("missing/a.png");
+    let error = stderr_of(&["render", "--progress", "json", "-o", text(&path)], 1);
+    assert_eq!(error.lines().count(), 1, "{error}");
+    let event: serde_json::Value = serde_json::from_str(&error).unwrap();
+    assert_eq!((&event["event"], &event["exit_code"]), (&"failed".into(), &1.into()));
+    assert!(event["error"].as_str().unwrap().contains("cannot write"));
+}
+
+#[test]
+fn a_failed_render_leaves_the_folder_as_it_was() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("a.png");
+    fs::write(&path, "old").unwrap();
+    octray(&["render", "no-such-scene", "-o", text(&path)]).assert().failure();
+    assert_eq!(fs::read(&path).unwrap(), b"old");
+    assert_eq!(fs::read_dir(folder.path()).unwrap().count(), 1);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_full_standard_output_is_an_error() {
+    for arguments in [&["man"][..], &["completions", "bash"]] {
+        let full = fs::OpenOptions::new().write(true).open("/dev/full").unwrap();
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_octray"))
+            .args(arguments)
+            .stdout(full)
+            .stderr(Stdio::piped())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(1), "{arguments:?}");
+        assert!(String::from_utf8_lossy(&output.stderr).contains("standard output"));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn a_reader_that_leaves_is_no_panic() {
+    for arguments in [&["man"][..], &["completions", "bash"], &["--help"]] {
+        let (reader, writer) = std::io::pipe().unwrap();
+        drop(reader);
+        let output = std::process::Command::new(env!("CARGO_BIN_EXE_octray"))
+            .args(arguments)
+            .stdout(writer)
+            .stderr(Stdio::piped())
+            .output()
+            .unwrap();
+        assert_eq!(output.status.code(), Some(0), "{arguments:?}");
+        assert!(output.stderr.is_empty(), "{}", String::from_utf8_lossy(&output.stderr));
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn nobody_listening_to_errors_is_no_panic() {
+    let (reader, writer) = std::io::pipe().unwrap();
+    drop(reader);
+    let status = std::process::Command::new(env!("CARGO_BIN_EXE_octray"))
+        .args(["render", "-o", "/missing/a.png"])
+        .stderr(writer)
+        .status()
+        .unwrap();
+    assert_eq!(status.code(), Some(1));
+}
