@@ -3,15 +3,15 @@
 #![deny(unsafe_code)]
 #![warn(missing_docs)]
 
-pub mod math;
-pub mod sampling;
+pub mod accel;
+pub mod cli;
+pub mod describe;
 pub mod film;
 pub mod intersect;
-pub mod describe;
 pub mod load;
+pub mod math;
+pub mod output;
+pub mod sampling;
 pub mod scene;
-pub mod accel;
 pub mod shading;
 pub mod wavefront;
-pub mod output;
-pub mod cli;
