@@ -1,9 +1,11 @@
-//! The picture: pixels in linear light, and their way to bytes for a screen.
+//! The picture: sums of samples in a fixed order, pixels in linear light, and their way to bytes for a screen.
 
+mod accumulate;
 mod image;
 mod srgb;
 mod tone;
 
+pub use accumulate::{BlockNode, BlockTree, ExactSum, NotAdjacent, PixelSum, SAMPLES_PER_BLOCK, SampleSums};
 pub use image::{Film, Plane, Rgb8};
 pub use srgb::{linear_from_srgb8, srgb8_from_linear};
 pub use tone::{Developed, Tone, ToneCurve, develop, develop_row};

@@ -1,0 +1,257 @@
+//! Sums that do not depend on how they were computed.
+//!
+//! Two steps, two means. The contributions of one sample come in any order (queues, chunks, packets), so they are added in
+//! fixed point, which is associative. The samples of one pixel come in order, so `f32` will do: blocks of 16 are summed in
+//! sample order and the blocks by a tree that depends on their numbers alone; so shards made of whole blocks merge to the
+//! bits of one run.
+
+/// Steps a unit of [`ExactSum`]: 2^40.
+const STEPS_PER_UNIT: f64 = (1u64 << 40) as f64;
+
+/// A sum of radiances, exact in any order.
+///
+/// **Units:** 2^-40 of a unit of radiance. **Accuracy:** each contribution is rounded once, to a multiple of 2^-40, and
+/// confined to +-2^20; sums are exact below 2^23 and stay at the limit beyond.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct ExactSum(i64);
+
+impl ExactSum {
+    /// Largest magnitude of one contribution.
+    pub const LIMIT: f32 = 1_048_576.0;
+
+    /// The nearest multiple of 2^-40, ties to even; NaN gives zero.
+    #[inline(always)]
+    pub fn quantise(x: f32) -> Self {
+        let confined = f64::from(x.clamp(-Self::LIMIT, Self::LIMIT));
+        Self((confined * STEPS_PER_UNIT).round_ties_even() as i64)
+    }
+
+    /// The sum of both.
+    #[inline(always)]
+    pub fn plus(self, other: Self) -> Self {
+        Self(self.0.saturating_add(other.0))
+    }
+
+    /// The nearest `f32`.
+    #[inline(always)]
+    pub fn to_f32(self) -> f32 {
+        // Integer to f32 rounds once, and the power of two is exact.
+        self.0 as f32 * (1.0 / STEPS_PER_UNIT as f32)
+    }
+}
+
+/// Radiances of the samples of one wave.
+///
+/// **Shape:** one column a colour channel, one entry a sample.
+#[derive(Clone, Debug, Default)]
+pub struct SampleSums {
+    columns: [Vec<ExactSum>; 3],
+    nan_count: u64,
+}
+
+impl SampleSums {
+    /// Makes room for `count` samples, all black, and forgets the NaN count; keeps memory.
+    pub fn reset(&mut self, count: usize) {
+        for column in &mut self.columns {
+            column.clear();
+            column.resize(count, ExactSum::default());
+        }
+        self.nan_count = 0;
+    }
+
+    /// Adds a contribution to a sample. One with a NaN in it is left out and counted.
+    #[inline(always)]
+    pub fn add(&mut self, sample: usize, rgb: [f32; 3]) {
+        if rgb.iter().any(|c| c.is_nan()) {
+            self.nan_count += 1;
+            return;
+        }
+        for (column, channel) in self.columns.iter_mut().zip(rgb) {
+            column[sample] = column[sample].plus(ExactSum::quantise(channel));
+        }
+    }
+
+    /// The radiance of a sample.
+    #[inline(always)]
+    pub fn rgb(&self, sample: usize) -> [f32; 3] {
+        std::array::from_fn(|k| self.columns[k][sample].to_f32())
+    }
+
+    /// Contributions left out since the last reset because they were not numbers.
+    pub fn nan_count(&self) -> u64 {
+        self.nan_count
+    }
+}
+
+/// Samples summed one after the other before the tree takes over; a shard holds a multiple of it.
+pub const SAMPLES_PER_BLOCK: u32 = 16;
+
+/// The sum of the blocks `index << level` to `(index + 1) << level`, the end excluded.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BlockNode<const C: usize> {
+    /// Height in the tree: 0 is one block.
+    pub level: u32,
+    /// Place among the nodes of this level.
+    pub index: u64,
+    /// Sum by channel.
+    pub sum: [f32; C],
+}
+
+impl<const C: usize> BlockNode<C> {
+    /// The first block summed.
+    pub fn first_block(&self) -> u64 {
+        self.index << self.level
+    }
+
+    /// The block after the last one summed.
+    pub fn end_block(&self) -> u64 {
+        (self.index + 1) << self.level
+    }
+
+    /// True if both are the halves of one node, `self` the left.
+    fn is_left_twin_of(&self, right: &Self) -> bool {
+        self.level == right.level && self.index.is_multiple_of(2) && self.index + 1 == right.index
+    }
+
+    fn joined_with(&self, right: &Self) -> Self {
+        Self { level: self.level + 1, index: self.index / 2, sum: plus(self.sum, right.sum) }
+    }
+}
+
+#[inline(always)]
+fn plus<const C: usize>(a: [f32; C], b: [f32; C]) -> [f32; C] {
+    std::array::from_fn(|k| a[k] + b[k])
+}
+
+/// Two ranges of blocks that do not meet.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the sums end before block {expected}, so block {found} cannot follow")]
+pub struct NotAdjacent {
+    /// The block that comes next.
+    pub expected: u64,
+    /// The block that was given.
+    pub found: u64,
+}
+
+/// The sum of a range of consecutive blocks as the fewest nodes of one infinite binary tree over block numbers.
+///
+/// The sum in a node depends on its place alone, however the range was cut before: so trees of adjacent ranges, split at any
+/// blocks, [append](BlockTree::append) to the bits that pushing block by block gives. A range from block 0 works like a
+/// binary counter: one node for each 1 in the number of blocks.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BlockTree<const C: usize> {
+    nodes: Vec<BlockNode<C>>,
+    next_block: u64,
+}
+
+impl<const C: usize> Default for BlockTree<C> {
+    fn default() -> Self {
+        Self::starting_at(0)
+    }
+}
+
+impl<const C: usize> BlockTree<C> {
+    /// The empty range before a block.
+    pub fn starting_at(first_block: u64) -> Self {
+        Self { nodes: Vec::new(), next_block: first_block }
+    }
+
+    /// Empties the range, now before the given block; keeps memory.
+    pub fn reset(&mut self, first_block: u64) {
+        self.nodes.clear();
+        self.next_block = first_block;
+    }
+
+    /// The block that comes next.
+    pub fn next_block(&self) -> u64 {
+        self.next_block
+    }
+
+    /// The nodes in order: what a shard stores.
+    pub fn nodes(&self) -> &[BlockNode<C>] {
+        &self.nodes
+    }
+
+    /// Adds the next block.
+    pub fn push_block(&mut self, sum: [f32; C]) {
+        self.join(BlockNode { level: 0, index: self.next_block, sum });
+    }
+
+    /// Adds a node. **Errors:** it does not begin with the next block.
+    pub fn push(&mut self, node: BlockNode<C>) -> Result<(), NotAdjacent> {
+        if node.first_block() != self.next_block {
+            return Err(NotAdjacent { expected: self.next_block, found: node.first_block() });
+        }
+        self.join(node);
+        Ok(())
+    }
+
+    /// Adds the range that follows. **Errors:** a gap or an overlap; then nothing changes.
+    pub fn append(&mut self, later: &Self) -> Result<(), NotAdjacent> {
+        later.nodes.iter().try_for_each(|&node| self.push(node))
+    }
+
+    fn join(&mut self, mut node: BlockNode<C>) {
+        self.next_block = node.end_block();
+        while let Some(left) = self.nodes.pop_if(|left| left.is_left_twin_of(&node)) {
+            node = left.joined_with(&node);
+        }
+        self.nodes.push(node);
+    }
+
+    /// The sum of the range: its nodes from the last to the first.
+    pub fn total(&self) -> [f32; C] {
+        let sums = self.nodes.iter().rev().map(|node| node.sum);
+        sums.reduce(|later, earlier| plus(earlier, later)).unwrap_or([0.0; C])
+    }
+}
+
+/// The sum of the samples of one pixel, pushed in sample order; `C` channels, the filter weight as one of them if needed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PixelSum<const C: usize> {
+    block: [f32; C],
+    samples_in_block: u32,
+    tree: BlockTree<C>,
+}
+
+impl<const C: usize> Default for PixelSum<C> {
+    fn default() -> Self {
+        Self { block: [0.0; C], samples_in_block: 0, tree: BlockTree::default() }
+    }
+}
+
+impl<const C: usize> PixelSum<C> {
+    /// Forgets all samples; the next one opens the given block. Keeps memory.
+    pub fn reset(&mut self, first_block: u64) {
+        self.block = [0.0; C];
+        self.samples_in_block = 0;
+        self.tree.reset(first_block);
+    }
+
+    /// Adds the next sample.
+    #[inline(always)]
+    pub fn push(&mut self, sample: [f32; C]) {
+        self.block = plus(self.block, sample);
+        self.samples_in_block += 1;
+        if self.samples_in_block == SAMPLES_PER_BLOCK {
+            self.close_block();
+        }
+    }
+
+    fn close_block(&mut self) {
+        self.tree.push_block(self.block);
+        self.block = [0.0; C];
+        self.samples_in_block = 0;
+    }
+
+    /// Closes the last block, which may be short, and gives the sums. A short block ends the pixel: nothing can follow it.
+    pub fn finish(&mut self) -> &BlockTree<C> {
+        if self.samples_in_block > 0 {
+            self.close_block();
+        }
+        &self.tree
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,136 @@
+use proptest::prelude::*;
+
+use super::*;
+
+fn bits<const C: usize>(sum: [f32; C]) -> [u32; C] {
+    sum.map(f32::to_bits)
+}
+
+/// The tree of the blocks `from..to` of a long list.
+fn tree(blocks: &[[f32; 2]], from: usize, to: usize) -> BlockTree<2> {
+    let mut tree = BlockTree::starting_at(from as u64);
+    blocks[from..to].iter().for_each(|&b| tree.push_block(b));
+    tree
+}
+
+/// Plain version: a full tree by recursion over halves.
+fn recursive_sum(blocks: &[[f32; 2]]) -> [f32; 2] {
+    match blocks {
+        [] => [0.0; 2],
+        [one] => *one,
+        _ => {
+            let (left, right) = blocks.split_at(blocks.len().next_power_of_two() / 2);
+            plus(recursive_sum(left), recursive_sum(right))
+        }
+    }
+}
+
+#[test]
+fn quantising_is_exact_where_it_can_be_and_bounded_elsewhere() {
+    let limit = ExactSum::LIMIT;
+    for (x, expected) in [
+        (0.0, 0.0),
+        (0.1, 0.1),
+        (-3.75, -3.75),
+        (limit, limit),
+        (2.0 * limit, limit),
+        (f32::INFINITY, limit),
+        (f32::NEG_INFINITY, -limit),
+        (f32::NAN, 0.0),
+        (1e-20, 0.0),
+    ] {
+        assert_eq!(ExactSum::quantise(x).to_f32(), expected, "{x}");
+    }
+    let step = (1.0 / STEPS_PER_UNIT) as f32;
+    assert_eq!(ExactSum::quantise(step).to_f32(), step);
+    assert_eq!(ExactSum::quantise(0.5 * step).to_f32(), 0.0, "ties go to even");
+}
+
+#[test]
+fn a_sum_beyond_all_bounds_stays_at_the_limit() {
+    let huge = ExactSum::quantise(f32::INFINITY);
+    let sum = (0..100).fold(ExactSum::default(), |s, _| s.plus(huge));
+    assert_eq!(sum.to_f32(), 8.0 * ExactSum::LIMIT);
+}
+
+#[test]
+fn contributions_that_are_not_numbers_are_left_out_and_counted() {
+    let mut sums = SampleSums::default();
+    sums.reset(2);
+    sums.add(1, [1.0, 2.0, 3.0]);
+    sums.add(1, [1.0, f32::NAN, 3.0]);
+    assert_eq!((sums.rgb(0), sums.rgb(1), sums.nan_count()), ([0.0; 3], [1.0, 2.0, 3.0], 1));
+    sums.reset(1);
+    assert_eq!((sums.rgb(0), sums.nan_count()), ([0.0; 3], 0));
+}
+
+#[test]
+fn gaps_and_overlaps_are_refused() {
+    let blocks = [[1.0, 2.0]; 8];
+    let mut first = tree(&blocks, 0, 4);
+    let before = first.clone();
+    assert_eq!(first.append(&tree(&blocks, 5, 8)), Err(NotAdjacent { expected: 4, found: 5 }));
+    assert_eq!(first.append(&tree(&blocks, 3, 8)), Err(NotAdjacent { expected: 4, found: 3 }));
+    assert_eq!(first, before);
+}
+
+#[test]
+fn no_samples_sum_to_zero() {
+    assert_eq!(PixelSum::<3>::default().finish().total(), [0.0; 3]);
+}
+
+#[test]
+fn a_pixel_is_its_blocks_and_their_tree() {
+    let samples: Vec<[f32; 1]> = (0..100).map(|k| [1.0 / (k as f32 + 1.0)]).collect();
+    let (mut pixel, mut by_hand) = (PixelSum::default(), BlockTree::default());
+    samples.iter().for_each(|&s| pixel.push(s));
+    for block in samples.chunks(SAMPLES_PER_BLOCK as usize) {
+        by_hand.push_block(block.iter().fold([0.0], |a, &b| plus(a, b)));
+    }
+    assert_eq!(*pixel.finish(), by_hand);
+    let exact: f64 = samples.iter().map(|s| f64::from(s[0])).sum();
+    assert!((f64::from(by_hand.total()[0]) - exact).abs() < 1e-6);
+}
+
+fn any_blocks() -> impl Strategy<Value = Vec<[f32; 2]>> {
+    prop::collection::vec([-1e3f32..1e3, 1e-6f32..1e6], 1..200)
+}
+
+proptest! {
+    #[test]
+    fn contributions_add_up_alike_in_any_order(
+        mut parts in prop::collection::vec(-1e4f32..1e4, 0..100), turn in any::<prop::sample::Index>(),
+    ) {
+        let add = |p: &[f32]| p.iter().fold(ExactSum::default(), |s, &x| s.plus(ExactSum::quantise(x)));
+        let (forward, exact) = (add(&parts), parts.iter().map(|&x| f64::from(x)).sum::<f64>());
+        prop_assert!((f64::from(forward.to_f32()) - exact).abs() <= exact.abs() * 6e-8 + 1e-10);
+        let cut = turn.index(parts.len() + 1);
+        let halves = add(&parts[cut..]).plus(add(&parts[..cut]));
+        parts.reverse();
+        prop_assert_eq!([add(&parts), halves], [forward; 2]);
+    }
+
+    #[test]
+    fn the_tree_is_the_recursive_sum(blocks in any_blocks()) {
+        prop_assert_eq!(bits(tree(&blocks, 0, blocks.len()).total()), bits(recursive_sum(&blocks)));
+    }
+
+    /// Cuts anywhere, aligned or not, merged from the left or from the right.
+    #[test]
+    fn shards_merge_to_the_bits_of_one_run(blocks in any_blocks(), cuts in prop::collection::vec(0usize..200, 0..6)) {
+        let mut edges: Vec<_> = cuts.into_iter().map(|c| c % blocks.len()).chain([0, blocks.len()]).collect();
+        edges.sort_unstable();
+        let shards: Vec<_> = edges.windows(2).map(|e| tree(&blocks, e[0], e[1])).collect();
+        let mut from_left = BlockTree::default();
+        for shard in &shards {
+            from_left.append(shard).unwrap();
+        }
+        let from_right = shards.iter().rev().cloned().reduce(|later, mut earlier| {
+            earlier.append(&later).unwrap();
+            earlier
+        });
+        let whole = tree(&blocks, 0, blocks.len());
+        prop_assert_eq!(&from_left, &whole);
+        prop_assert_eq!(from_right.unwrap(), whole);
+    }
+}
