@@ -127,9 +127,10 @@ impl TriangleBlock {
     /// Packs rows of the triangle columns.
     pub fn pack(geometry: &Geometry, rows: &[u32]) -> Self {
         let t = &geometry.triangles;
-        let corner = t.vertex.each_ref().map(|vertex| {
-            t.position.each_ref().map(|axis| lanes(rows, |r| axis[vertex[r] as usize]))
-        });
+        let corner = t
+            .vertex
+            .each_ref()
+            .map(|vertex| t.position.each_ref().map(|axis| lanes(rows, |r| axis[vertex[r] as usize])));
         Self { corner, id: ids(rows, PrimKind::Triangle), len: rows.len() as u32 }
     }
     /// Corners of the primitives at a step.

@@ -65,19 +65,19 @@ pub fn visit_leaf<T: Tier, W: Walk, Q: Query<T::Wide>>(
     let ray = &rays.ray;
     match leaf.kind() {
         TRIANGLE => {
-            let block = &accel.triangles[leaf.index()];
+            let block = &accel.triangles[leaf.index() as usize];
             visit_block::<T, W, Q, _>(block, ray, query, |step, limit| {
                 T::Triangle::test(ray, &rays.triangle, block.corners::<W, _>(step), limit)
             })
         }
         SPHERE => {
-            let block = &accel.spheres[leaf.index()];
+            let block = &accel.spheres[leaf.index() as usize];
             visit_block::<T, W, Q, _>(block, ray, query, |step, _| {
                 T::Curved::sphere(ray, &block.spheres::<W, _>(step))
             })
         }
         _ => {
-            let block = &accel.cylinders[leaf.index()];
+            let block = &accel.cylinders[leaf.index() as usize];
             visit_block::<T, W, Q, _>(block, ray, query, |step, _| {
                 T::Curved::cylinder(ray, &block.cylinders::<W, _>(step))
             })

@@ -1,13 +1,16 @@
 //! Building and traversing the tree.
 
+mod assemble;
 pub mod block;
 pub mod brute;
+pub mod build;
 mod leaf;
 pub mod node;
 mod packet;
 pub mod query;
 mod single;
 mod traversal;
+pub mod validate;
 
 use block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
 use node::{ChildRef, Node8};
@@ -72,7 +75,7 @@ impl Accel {
         query: &mut Q,
         mut traverse: impl FnMut(u32, &PreparedRays<T>, &mut Q),
     ) {
-        let block = &self.instance_blocks[leaf.index()];
+        let block = &self.instance_blocks[leaf.index() as usize];
         for &row in &block.rows[..block.len as usize] {
             let placed = &self.instances[row as usize];
             let local = Self::local_rays(&placed.to_world, &rays.ray);

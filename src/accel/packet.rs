@@ -41,7 +41,13 @@ pub fn traverse<T: Tier, Q: Query<T::Wide>>(
             continue;
         }
         if entry.child.is_node() {
-            push_children(&accel.nodes[entry.child.index()], &rays.cull, order, (t_min, limit), stack);
+            push_children(
+                &accel.nodes[entry.child.index() as usize],
+                &rays.cull,
+                order,
+                (t_min, limit),
+                stack,
+            );
         } else if entry.child.kind() == Accel::INSTANCE {
             accel.visit_instances::<T, Q>(entry.child, rays, query, |root, local, query| {
                 traverse::<T, Q>(accel, root, local, query, stack)
@@ -85,7 +91,9 @@ fn push_children(
             continue;
         }
         let corner = |far: bool| {
-            let side = |k: usize| if (octant.bits >> k & 1 != 0) ^ far { node.hi[k][slot] } else { node.lo[k][slot] };
+            let side = |k: usize| {
+                if (octant.bits >> k & 1 != 0) ^ far { node.hi[k][slot] } else { node.lo[k][slot] }
+            };
             Vec3::splat([side(0), side(1), side(2)])
         };
         let (enter, leave) = if octant.shared {

@@ -39,7 +39,13 @@ pub fn traverse<T: Tier, Q: Query<T::Wide>>(
             continue;
         }
         if entry.child.is_node() {
-            push_children(&accel.nodes[entry.child.index()], &rays.cull, octant, (t_min, limit), stack);
+            push_children(
+                &accel.nodes[entry.child.index() as usize],
+                &rays.cull,
+                octant,
+                (t_min, limit),
+                stack,
+            );
         } else if entry.child.kind() == Accel::INSTANCE {
             accel.visit_instances::<T, Q>(entry.child, rays, query, |root, local, query| {
                 traverse::<T, Q>(accel, root, local, query, stack)

@@ -132,7 +132,8 @@ mod tests {
         let shift =
             Transform::from_rows([[1.0, 0.0, 0.0, 1.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]).unwrap();
         let quarter =
-            Transform::from_rows([[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]]).unwrap();
+            Transform::from_rows([[0.0, -1.0, 0.0, 0.0], [1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]])
+                .unwrap();
         let both = shift.then(&quarter);
         assert_eq!(both.point([0.0; 3]), [0.0, 1.0, 0.0]);
         assert_eq!(both.inverted().point([0.0, 1.0, 0.0]), [0.0; 3]);

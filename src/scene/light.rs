@@ -1,44 +1,41 @@
 //! Lights as compiled.
 
-/// A light that casts hard shadows.
+use crate::math::{Lane, Vec3};
+use crate::shading::{DirectionalLight, Illumination, PointLight, SpotLight};
+
+/// A light without size: it casts hard shadows.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Light {
-    /// From a point, evenly, falling off with the square of the distance.
-    Point {
-        /// Where it stands.
-        position: [f64; 3],
-        /// Colour times intensity: irradiance at distance 1.
-        power: [f64; 3],
-    },
+    /// From a point, evenly.
+    Point(PointLight),
     /// From infinitely far.
-    Directional {
-        /// Towards the light, of length one.
-        to_light: [f64; 3],
-        /// Irradiance on a surface that faces it.
-        power: [f64; 3],
-    },
+    Directional(DirectionalLight),
     /// From a point into a cone.
-    Spot {
-        /// Where it stands.
-        position: [f64; 3],
-        /// Where it points, of length one.
-        axis: [f64; 3],
-        /// Cosine of the angle from which on it is dark.
-        cos_outer: f64,
-        /// Cosine of the angle up to which it is as bright as a point light.
-        cos_inner: f64,
-        /// Colour times intensity: irradiance at distance 1 inside the cone.
-        power: [f64; 3],
-    },
+    Spot(SpotLight),
 }
 
 impl Light {
     /// Kind as printed.
     pub fn name(&self) -> &'static str {
         match self {
-            Self::Point { .. } => "point",
-            Self::Directional { .. } => "directional",
-            Self::Spot { .. } => "spot",
+            Self::Point(_) => "point",
+            Self::Directional(_) => "directional",
+            Self::Spot(_) => "spot",
         }
+    }
+
+    /// What the light does at points.
+    #[inline(always)]
+    pub fn illuminate<L: Lane>(&self, point: Vec3<L>) -> Illumination<L> {
+        match self {
+            Self::Point(light) => light.illuminate(point),
+            Self::Directional(light) => light.illuminate(),
+            Self::Spot(light) => light.illuminate(point),
+        }
+    }
+
+    /// Where the light lies on a ray along `to_light`.
+    pub fn t_max(&self) -> f64 {
+        if matches!(self, Self::Directional(_)) { f64::INFINITY } else { 1.0 }
     }
 }

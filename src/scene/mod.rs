@@ -1,26 +1,110 @@
 //! The scene as compiled: columns, and what they require.
 
 mod camera;
+mod compile;
 mod geometry;
+mod light;
 mod material;
+mod requirements;
+mod texture;
 
 pub use camera::{Camera, CameraRays, Projection};
+pub use compile::{CompileError, CompileTimes};
 pub use geometry::{Cylinders, Geometry, Group, Instance, NO_MATERIAL, Planes, Spheres, Triangles};
+pub use light::Light;
 pub use material::{MaterialRow, Materials, NO_TEXTURE, Scatter};
-
-use crate::math::{Lane, Real, Vec3};
+pub use requirements::Requirements;
+pub use texture::sample_texture;
 
 pub(crate) use geometry::{push3, row3};
 
+use crate::accel::Accel;
+use crate::film::Tone;
+use crate::intersect::TierName;
+use crate::load::Texture;
+use crate::math::{Lane, Real, Vec3, WIDTH};
+use crate::sampling::{PixelFilter, SamplerKind};
+
+/// What rays see that hit nothing: a vertical gradient from straight down to straight up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Background {
+    /// Radiance from below.
+    pub bottom: [f64; 3],
+    /// Radiance from above.
+    pub top: [f64; 3],
+}
+
+impl Background {
+    /// Radiance along unit directions, linear in their height.
+    #[inline(always)]
+    pub fn radiance<L: Lane>(&self, direction: Vec3<L>) -> Vec3<L> {
+        let splat = |c: [f64; 3]| Vec3::<L>::splat(c.map(<L::Scalar as Real>::from_f64));
+        let bottom = splat(self.bottom);
+        if self.bottom == self.top {
+            return bottom;
+        }
+        let half = L::constant(0.5);
+        bottom + (splat(self.top) - bottom) * (direction.y * half + half)
+    }
+}
+
+/// How the picture is computed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RenderSettings {
+    /// Width and height in pixels.
+    pub size: [u32; 2],
+    /// Samples a pixel.
+    pub spp: u32,
+    /// Most bounces of a path: 0 shows what the camera sees directly.
+    pub max_depth: u32,
+    /// Chooses other random numbers.
+    pub seed: u64,
+    /// Precision.
+    pub tier: TierName,
+    /// How samples are placed.
+    pub sampler: SamplerKind,
+    /// How samples count by their place in the pixel.
+    pub filter: PixelFilter,
+    /// Paths that would bring less than this share of their radiance end.
+    pub min_throughput: f64,
+    /// Exposure and curve for the 8-bit formats.
+    pub tone: Tone,
+}
+
+/// A scene ready to render.
+#[derive(Debug)]
+pub struct Scene {
+    /// Primitives.
+    pub geometry: Geometry,
+    /// Trees over them.
+    pub accel: Accel,
+    /// Materials.
+    pub materials: Materials,
+    /// Textures.
+    pub textures: Vec<Texture>,
+    /// Lights.
+    pub lights: Vec<Light>,
+    /// The camera.
+    pub camera: Camera,
+    /// What rays see that hit nothing.
+    pub background: Background,
+    /// How the picture is computed.
+    pub settings: RenderSettings,
+    /// What of the renderer this needs.
+    pub requirements: Requirements,
+    /// How long compiling took.
+    pub times: CompileTimes,
+}
+
 /// The rows of a column named by lanes.
 #[inline(always)]
-pub(crate) fn gather<L: Lane>(column: &[f32], rows: &[u32; 8]) -> L {
+pub(crate) fn gather<L: Lane>(column: &[f32], rows: &[u32; WIDTH]) -> L {
     L::from_fn(|i| <L::Scalar as Real>::from_f32(column[rows[i] as usize]))
 }
 
 /// The rows of three columns named by lanes.
 #[inline(always)]
-pub(crate) fn gather3<L: Lane>(columns: &[Vec<f32>; 3], rows: &[u32; 8]) -> Vec3<L> {
+pub(crate) fn gather3<L: Lane>(columns: &[Vec<f32>; 3], rows: &[u32; WIDTH]) -> Vec3<L> {
     let [x, y, z] = columns;
     Vec3::new(gather(x, rows), gather(y, rows), gather(z, rows))
 }

@@ -1,1 +1,23 @@
-//! Queues of path states and the loop over them.
+//! Queues of path states, and the loop over them: generate, extend, shade, connect, scatter.
+//!
+//! A wave holds some samples of the pixels of a tile. Its paths go through the stages together, one depth after the other.
+//! What a path adds to its sample is added exactly ([`crate::film::ExactSum`]), so neither the order of queues nor the way
+//! they are cut changes the picture.
+
+mod connect;
+mod emit;
+mod extend;
+mod generate;
+mod medium;
+mod offset;
+mod queue;
+mod render;
+mod run;
+mod scatter;
+mod surface;
+mod surface_queue;
+mod tile;
+mod wave;
+
+pub use render::{Progress, RenderError, RenderOptions, RenderReport, render};
+pub use wave::RayCounts;

@@ -7,6 +7,7 @@ use super::CompileError;
 use crate::describe::{Material, MaterialKind, SceneDescription};
 use crate::load::{Texture, load_texture};
 use crate::scene::{MaterialRow, Materials, NO_TEXTURE, Scatter};
+use crate::shading::Shininess;
 
 /// Most material rows: a dielectric's row plus one fits the 16 bits of the nesting record.
 const MAX_ROWS: usize = u16::MAX as usize;
@@ -65,7 +66,7 @@ impl MaterialTable {
             diffuse: m.kd().map(|k| k as f32),
             specular: m.ks().map(|k| k as f32),
             tint: tint.map(|k| (k * m.attenuation) as f32),
-            shininess: (m.shininess * 256.0).round() as u32,
+            shininess: Shininess::new(m.shininess as f32).word(),
             ior: m.ior as f32,
             scatter: scatter(m),
             texture,

@@ -19,8 +19,8 @@ use objects::World;
 #[non_exhaustive]
 pub enum CompileError {
     /// The description breaks a rule of its own.
-    #[error("{0}")]
-    Description(Fault),
+    #[error("{}", .0.iter().map(Fault::to_string).collect::<Vec<_>>().join("\n"))]
+    Description(Vec<Fault>),
     /// A mesh or texture file.
     #[error(transparent)]
     Load(#[from] LoadError),
@@ -33,7 +33,9 @@ pub enum CompileError {
         source: TransformError,
     },
     /// A number that is fine as written but not in `f32`, the number type of primitives.
-    #[error("{what}: {value} is out of range: sizes and positions are stored with 24 bits and exponents to 1e38")]
+    #[error(
+        "{what}: {value} is out of range: sizes and positions are stored with 24 bits and exponents to 1e38"
+    )]
     OutOfRange {
         /// Which number of which object.
         what: String,

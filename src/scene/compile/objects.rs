@@ -63,7 +63,11 @@ impl<'a> World<'a> {
         }
         for c in objects.cylinders.iter().filter(|c| bent(&c.transform)) {
             let straight = describe::Cylinder { transform: Default::default(), ..c.clone() };
-            shows.push(self.alone(Objects { cylinders: &[straight], ..NOTHING }, &c.transform, "cylinder")?);
+            shows.push(self.alone(
+                Objects { cylinders: &[straight], ..NOTHING },
+                &c.transform,
+                "cylinder",
+            )?);
         }
         let mut own_meshes = Vec::new();
         for mesh in objects.meshes {
@@ -80,7 +84,11 @@ impl<'a> World<'a> {
             self.cylinder(c)?;
         }
         for t in objects.triangles {
-            let mesh = load::Mesh { positions: to_f32(&t.vertices), triangles: vec![[0, 1, 2]], ..Default::default() };
+            let mesh = load::Mesh {
+                positions: to_f32(&t.vertices),
+                triangles: vec![[0, 1, 2]],
+                ..Default::default()
+            };
             self.mesh(&mesh, t.material.as_deref(), &rows(&t.transform, "triangle")?, "triangle")?;
         }
         for q in objects.quads {
@@ -191,7 +199,10 @@ impl<'a> World<'a> {
         let ends = [from?, to?];
         if ends[0] == ends[1] {
             let value = c.ends()[0][0];
-            return Err(CompileError::OutOfRange { what: "cylinder whose ends coincide once rounded".into(), value });
+            return Err(CompileError::OutOfRange {
+                what: "cylinder whose ends coincide once rounded".into(),
+                value,
+            });
         }
         let radius = positive(c.radius * scale, "radius of a cylinder")?;
         let material = self.table.row(c.material.as_deref())?;
@@ -241,7 +252,8 @@ impl<'a> World<'a> {
         room("triangles", t.len())?;
         room("vertices", t.position[0].len())?;
         let used = mesh.triangles.as_flattened();
-        let lost = used.iter().find(|&&v| !t.position.iter().all(|axis| axis[first + v as usize].is_finite()));
+        let lost =
+            used.iter().find(|&&v| !t.position.iter().all(|axis| axis[first + v as usize].is_finite()));
         match lost {
             Some(&v) => finite(transform.point(mesh.positions[v as usize].map(f64::from)), what).map(|_| ()),
             None => Ok(()),
@@ -316,7 +328,8 @@ fn to_f32<const N: usize>(points: &[[f64; 3]; N]) -> Vec<[f32; 3]> {
 }
 
 fn rows(t: &describe::Transform, what: &str) -> Result<Transform, CompileError> {
-    Transform::from_rows(t.matrix()).map_err(|source| CompileError::Transform { what: what.to_owned(), source })
+    Transform::from_rows(t.matrix())
+        .map_err(|source| CompileError::Transform { what: what.to_owned(), source })
 }
 
 fn similar(t: &describe::Transform, what: &str) -> Result<(Transform, f64), CompileError> {

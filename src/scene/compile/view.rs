@@ -2,10 +2,12 @@
 
 use super::CompileError;
 use crate::describe::{self, CameraKind, FilterKind, Handedness, SceneDescription};
+use crate::film::{Tone, ToneCurve};
 use crate::intersect::TierName;
 use crate::math::Transform;
 use crate::sampling::{PixelFilter, SamplerKind};
 use crate::scene::{Background, Camera, Light, Projection, RenderSettings};
+use crate::shading::{DirectionalLight, PointLight, SpotLight};
 use glam::DVec3;
 
 /// The camera's axes, moved by its transform and scaled to half the picture.
@@ -41,8 +43,10 @@ fn projection(c: &describe::Camera) -> (f64, Projection) {
         CameraKind::Orthographic => (0.5 * c.height.unwrap_or(2.0), Projection::Orthographic),
         CameraKind::Perspective => {
             let half = libm::tan((0.5 * c.fov_deg).to_radians());
-            let lens =
-                Projection::ThinLens { aperture_radius: c.aperture_radius, focus_distance: c.focus_distance() };
+            let lens = Projection::ThinLens {
+                aperture_radius: c.aperture_radius,
+                focus_distance: c.focus_distance(),
+            };
             (half, if c.aperture_radius > 0.0 { lens } else { Projection::Pinhole })
         }
     }
@@ -51,21 +55,29 @@ fn projection(c: &describe::Camera) -> (f64, Projection) {
 /// All lights that give light.
 pub(super) fn lights(description: &SceneDescription) -> Vec<Light> {
     let l = &description.light;
-    let power = |color: describe::Rgb, intensity: f64| color.0.map(|c| c * intensity);
-    let unit = |v: DVec3| -> [f64; 3] { v.normalize().into() };
-    let point = l.point.iter().map(|p| Light::Point { position: p.position, power: power(p.color, p.intensity) });
-    let directional = l.directional.iter().map(|d| Light::Directional {
-        to_light: unit(-DVec3::from(d.direction)),
-        power: power(d.color, d.intensity),
+    let point = l.point.iter().map(|p| Light::Point(point_light(p.position, p.color, p.intensity)));
+    let directional = l.directional.iter().map(|d| {
+        let direction = unit(DVec3::from(d.direction));
+        Light::Directional(DirectionalLight { direction, irradiance: power(d.color, d.intensity) })
     });
-    let spot = l.spot.iter().map(|s| Light::Spot {
-        position: s.position,
-        axis: unit(DVec3::from(s.look_at) - DVec3::from(s.position)),
-        cos_outer: libm::cos(s.cone_deg.to_radians()),
-        cos_inner: libm::cos((s.cone_deg - s.penumbra_deg).to_radians()),
-        power: power(s.color, s.intensity),
+    let spot = l.spot.iter().map(|s| {
+        let axis = unit(DVec3::from(s.look_at) - DVec3::from(s.position));
+        let point = point_light(s.position, s.color, s.intensity);
+        Light::Spot(SpotLight::new(point, axis, s.cone_deg.to_radians(), s.penumbra_deg.to_radians()))
     });
-    point.chain(directional).chain(spot).filter(|light| light.power().iter().any(|&p| p != 0.0)).collect()
+    point.chain(directional).chain(spot).collect()
+}
+
+fn point_light(position: [f64; 3], color: describe::Rgb, intensity: f64) -> PointLight {
+    PointLight { position: position.map(|x| x as f32), intensity: power(color, intensity) }
+}
+
+fn power(color: describe::Rgb, intensity: f64) -> [f32; 3] {
+    color.0.map(|c| (c * intensity) as f32)
+}
+
+fn unit(v: DVec3) -> [f32; 3] {
+    v.normalize().to_array().map(|x| x as f32)
 }
 
 impl Background {
@@ -95,16 +107,24 @@ impl RenderSettings {
             },
             filter: filter(&r.filter),
             min_throughput: r.min_throughput,
+            tone: Tone {
+                exposure_ev: r.exposure as f32,
+                curve: match r.tone {
+                    describe::Tone::None => ToneCurve::None,
+                    describe::Tone::Reinhard => ToneCurve::Reinhard,
+                    describe::Tone::Filmic => ToneCurve::Filmic,
+                },
+            },
         }
     }
 }
 
 fn filter(f: &describe::Filter) -> PixelFilter {
-    let radius = f.radius();
+    let radius = f.radius() as f32;
     match f.kind {
         FilterKind::Box => PixelFilter::Box { radius },
         FilterKind::Tent => PixelFilter::Tent { radius },
-        FilterKind::Gaussian => PixelFilter::Gaussian { radius, sigma: f.sigma },
-        FilterKind::Mitchell => PixelFilter::Mitchell { radius, b: f.b, c: f.c },
+        FilterKind::Gaussian => PixelFilter::Gaussian { radius, sigma: f.sigma as f32 },
+        FilterKind::Mitchell => PixelFilter::Mitchell { radius, b: f.b as f32, c: f.c as f32 },
     }
 }

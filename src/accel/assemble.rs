@@ -1,0 +1,125 @@
+//! From the columns of a scene to its trees: one for the world, one for each group that an instance shows.
+
+use super::block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
+use super::build::{BuildPrimitive, KINDS, MAX_DEPTH, Tree, build};
+use super::{Accel, PlacedTree, TreeRoot};
+use crate::intersect::PrimKind;
+use crate::math::{Aabb, WIDTH};
+use crate::scene::{Geometry, Group, Instance, row3};
+use rayon::prelude::*;
+
+/// A tree with what its primitive numbers mean.
+struct GroupTree {
+    tree: Tree,
+    /// Kind and row of each primitive number.
+    rows: Rows,
+}
+
+/// Primitives of a group in one numbering: kinds one after the other.
+struct Rows {
+    triangles: std::ops::Range<usize>,
+    spheres: std::ops::Range<usize>,
+    cylinders: std::ops::Range<usize>,
+}
+
+impl Rows {
+    /// The row of a primitive number among the columns of its kind; for an instance its own number.
+    fn row(&self, kind: u8, number: u32) -> u32 {
+        let n = number as usize;
+        let (triangles, spheres) = (self.triangles.len(), self.spheres.len());
+        let row = match kind {
+            k if k == PrimKind::Triangle as u8 => self.triangles.start + n,
+            k if k == PrimKind::Sphere as u8 => self.spheres.start + n - triangles,
+            k if k == PrimKind::Cylinder as u8 => self.cylinders.start + n - triangles - spheres,
+            _ => n - triangles - spheres - self.cylinders.len(),
+        };
+        row as u32
+    }
+}
+
+impl Accel {
+    /// Builds the trees over all primitives of a scene.
+    ///
+    /// The result is the same for any number of threads. The current rayon pool is used.
+    pub fn build(geometry: &Geometry) -> Self {
+        let mut accel = Self::default();
+        let mut roots = vec![TreeRoot::default(); geometry.groups.len()];
+        let mut bounds = vec![Aabb::EMPTY; geometry.groups.len()];
+        for (i, group) in geometry.groups.iter().enumerate().skip(1) {
+            let built = group_tree(geometry, group, &[]);
+            bounds[i] = built.tree.bounds;
+            roots[i] = accel.append(geometry, built);
+        }
+        let placed: Vec<Aabb> = geometry.instances.iter().map(|i| instance_bounds(i, &bounds)).collect();
+        let world = geometry.groups.first().cloned().unwrap_or_default();
+        let built = group_tree(geometry, &world, &placed);
+        accel.world = accel.append(geometry, built);
+        let place = |i: &Instance| PlacedTree { tree: roots[i.group], to_world: i.to_world };
+        accel.instances = geometry.instances.iter().map(place).collect();
+        let p = &geometry.planes;
+        accel.planes = (0..p.len()).map(|i| [row3(&p.point, i), row3(&p.normal, i)]).collect();
+        accel
+    }
+
+    /// Appends a tree and its packed leaves to the shared arrays.
+    fn append(&mut self, geometry: &Geometry, GroupTree { mut tree, rows }: GroupTree) -> TreeRoot {
+        let mut by = [0; KINDS];
+        by[0] = self.nodes.len() as u32;
+        by[PrimKind::Triangle as usize] = self.triangles.len() as u32;
+        by[PrimKind::Sphere as usize] = self.spheres.len() as u32;
+        by[PrimKind::Cylinder as usize] = self.cylinders.len() as u32;
+        by[Self::INSTANCE as usize] = self.instance_blocks.len() as u32;
+        tree.offset(&by);
+        let root = TreeRoot { node: by[0], scale: tree.bounds.magnitude() };
+        pack(&mut self.triangles, &tree, &rows, PrimKind::Triangle as u8, |r| {
+            TriangleBlock::pack(geometry, r)
+        });
+        pack(&mut self.spheres, &tree, &rows, PrimKind::Sphere as u8, |r| SphereBlock::pack(geometry, r));
+        pack(&mut self.cylinders, &tree, &rows, PrimKind::Cylinder as u8, |r| {
+            CylinderBlock::pack(geometry, r)
+        });
+        pack(&mut self.instance_blocks, &tree, &rows, Self::INSTANCE, InstanceBlock::pack);
+        let entries = 7 * tree.max_depth.min(MAX_DEPTH) as usize + WIDTH;
+        // A ray may be in the world's tree and in one group's at a time.
+        self.stack_bound = self.stack_bound.max(2 * entries);
+        self.nodes.append(&mut tree.nodes);
+        root
+    }
+}
+
+/// Packs all leaves of a kind.
+fn pack<B: Send>(to: &mut Vec<B>, tree: &Tree, rows: &Rows, kind: u8, block: impl Fn(&[u32]) -> B + Sync) {
+    let pack = |leaf: &super::build::Leaf| {
+        let mut row = [0; WIDTH];
+        let numbers = tree.primitives(leaf);
+        for (to, &number) in row.iter_mut().zip(numbers) {
+            *to = rows.row(kind, number);
+        }
+        block(&row[..numbers.len()])
+    };
+    to.par_extend(tree.leaves_of(kind).par_iter().map(pack));
+}
+
+/// The tree over the rows of a group, and in the world over its instances too.
+fn group_tree(geometry: &Geometry, group: &Group, instances: &[Aabb]) -> GroupTree {
+    let Group { triangles, spheres, cylinders } = group.clone();
+    let of = |bounds: Aabb, kind: u8| BuildPrimitive { bounds, kind };
+    let mut primitives: Vec<BuildPrimitive> = triangles
+        .clone()
+        .into_par_iter()
+        .map(|row| of(geometry.triangles.bounds(row), PrimKind::Triangle as u8))
+        .collect();
+    primitives.extend(spheres.clone().map(|r| of(geometry.spheres.bounds(r), PrimKind::Sphere as u8)));
+    primitives.extend(cylinders.clone().map(|r| of(geometry.cylinders.bounds(r), PrimKind::Cylinder as u8)));
+    primitives.extend(instances.iter().map(|&b| of(b, Accel::INSTANCE)));
+    GroupTree { tree: build(&primitives), rows: Rows { triangles, spheres, cylinders } }
+}
+
+/// The box of an instance, grown by what rounding does to rays on their way into its space: 64 roundoffs of the largest
+/// coordinate on either side of the transform.
+fn instance_bounds(instance: &Instance, groups: &[Aabb]) -> Aabb {
+    let local = groups[instance.group];
+    let local = local.padded(local.magnitude() * crate::math::gamma(64));
+    let world = instance.to_world.bounds(&local);
+    world.padded(world.magnitude() * crate::math::gamma(64))
+}

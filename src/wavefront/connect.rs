@@ -1,0 +1,117 @@
+//! Direct light: for each light a queue of shadow rays, traced full packets at a time.
+
+use bumpalo::Bump;
+
+use super::emit::{add, not_black};
+use super::offset::offset_along;
+use super::queue::{Column3, column, compress_words, words};
+use super::surface_queue::SurfaceQueue;
+use super::wave::Worker;
+use crate::accel::Hint;
+use crate::intersect::{RayLanes, Tier};
+use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
+use crate::scene::{Light, gather3};
+use crate::shading::{Lobes, blinn_phong};
+
+/// Shadow rays and what their light would add.
+struct ShadowQueue<'a, R> {
+    len: usize,
+    origin: Column3<'a, R>,
+    direction: Column3<'a, R>,
+    radiance: Column3<'a, R>,
+    slot: &'a mut [u32],
+}
+
+/// Adds the light of all lights that reaches the surfaces.
+pub(super) fn connect<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T::Real>, arena: &Bump) {
+    let scene = worker.frame.scene;
+    let n = surfaces.len;
+    let mut queue = ShadowQueue {
+        len: 0,
+        origin: Column3::new(arena, n + WIDTH),
+        direction: Column3::new(arena, n + WIDTH),
+        radiance: Column3::new(arena, n + WIDTH),
+        slot: column(arena, n + WIDTH),
+    };
+    for light in &scene.lights {
+        queue.len = 0;
+        match scene.requirements.fractional_shininess {
+            true => shade::<T, true>(worker, surfaces, light, &mut queue),
+            false => shade::<T, false>(worker, surfaces, light, &mut queue),
+        }
+        worker.rays.shadow += queue.len as u64;
+        trace(worker, light, &queue);
+    }
+}
+
+/// Queues a shadow ray for each surface that the light would add something to.
+fn shade<T: Tier, const FRACTION: bool>(
+    worker: &Worker<T>,
+    surfaces: &SurfaceQueue<T::Real>,
+    light: &Light,
+    queue: &mut ShadowQueue<T::Real>,
+) {
+    for at in (0..surfaces.len).step_by(WIDTH) {
+        let point = surfaces.point.load::<T::Wide>(at);
+        let geometric_normal = surfaces.geometric_normal.load(at);
+        let lit = light.illuminate(point);
+        let above = lit.to_light.dot(geometric_normal).gt(T::Wide::zero());
+        if above.bits() & surfaces.lanes(at) == 0 {
+            continue;
+        }
+        let reflected = reflected::<T, FRACTION>(worker, surfaces, at, lit.to_light.normalize());
+        let radiance = reflected.scale(lit.irradiance).scale(surfaces.throughput.load(at));
+        let wanted = (above & not_black(radiance)).bits() & surfaces.lanes(at);
+        if wanted == 0 {
+            continue;
+        }
+        let error = T::Wide::load(&surfaces.error[at..]);
+        let origin = offset_along(point, error, geometric_normal);
+        let k = queue.len;
+        queue.origin.compress(k, origin, wanted);
+        queue.direction.compress(k, light.illuminate(origin).to_light, wanted);
+        queue.radiance.compress(k, radiance, wanted);
+        compress_words(queue.slot, k, <wide::u32x8 as BitLane>::from_fn(|i| surfaces.slots(at)[i]), wanted);
+        queue.len += wanted.count_ones() as usize;
+    }
+}
+
+/// What share of the irradiance the surfaces send back along the paths, by colour.
+#[inline(always)]
+fn reflected<T: Tier, const FRACTION: bool>(
+    worker: &Worker<T>,
+    surfaces: &SurfaceQueue<T::Real>,
+    at: usize,
+    to_light: Vec3<T::Wide>,
+) -> Vec3<T::Wide> {
+    let scene = worker.frame.scene;
+    let (normal, wo) = (surfaces.shading_normal.load(at), -surfaces.direction.load(at));
+    let diffuse = surfaces.diffuse::<T::Wide>(scene, at);
+    if !scene.requirements.highlights {
+        return diffuse * normal.dot(to_light).max(T::Wide::zero());
+    }
+    let materials = surfaces.materials(at);
+    let exponent = BitLane::from_fn(|i| scene.materials.shininess[materials[i] as usize]);
+    let bits = scene.requirements.shininess_bits;
+    let Lobes { diffuse: cos, specular } =
+        blinn_phong::<T::Wide, FRACTION>(normal, to_light, wo, exponent, bits);
+    diffuse * cos + gather3::<T::Wide>(&scene.materials.specular, materials) * specular
+}
+
+/// Traces shadow rays up to the light and adds the light of those that nothing stops.
+fn trace<T: Tier>(worker: &mut Worker<T>, light: &Light, queue: &ShadowQueue<T::Real>) {
+    let t_max = <T::Real as Lane>::constant(light.t_max());
+    let off = <T::Real as Lane>::constant(f64::NEG_INFINITY);
+    for at in (0..queue.len).step_by(WIDTH) {
+        let count = (queue.len - at).min(WIDTH);
+        let ray = RayLanes {
+            origin: queue.origin.load(at),
+            direction: queue.direction.load(at),
+            t_min: T::Wide::zero(),
+            t_max: T::Wide::from_fn(|i| if i < count { t_max } else { off }),
+        };
+        let blocked = worker.traversal.any::<T>(&ray, Hint::Auto);
+        let lanes = !blocked & ((1u64 << count) - 1) as u32;
+        add(worker, words(queue.slot, at), queue.radiance.load(at), lanes);
+    }
+}

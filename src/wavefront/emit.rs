@@ -1,0 +1,55 @@
+//! Radiance that needs no light source: the background for paths that miss, the glow of surfaces for those that hit.
+
+use super::extend::Hits;
+use super::queue::{PathQueue, list_lanes, set_bits};
+use super::surface_queue::SurfaceQueue;
+use super::wave::Worker;
+use crate::intersect::Tier;
+use crate::math::{Lane, Real, Vec3, WIDTH};
+use crate::scene::gather3;
+
+/// Adds what missing paths see.
+pub(super) fn background<T: Tier>(
+    worker: &mut Worker<T>,
+    queue: &PathQueue<T::Real>,
+    first: usize,
+    hits: &Hits<T::Real>,
+) {
+    for at in (0..hits.misses.len()).step_by(WIDTH) {
+        let (rows, lanes) = list_lanes(&hits.misses, at);
+        let paths = rows.map(|r| r + first as u32);
+        let direction = queue.direction.gather::<T::Wide>(&paths);
+        let seen = worker.frame.scene.background.radiance(direction);
+        let radiance = queue.throughput.gather::<T::Wide>(&paths).scale(seen);
+        add(worker, &paths.map(|p| queue.slot[p as usize]), radiance, lanes);
+    }
+}
+
+/// Adds the glow of surfaces: ambient light and emission.
+pub(super) fn glow<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T::Real>) {
+    for at in (0..surfaces.len).step_by(WIDTH) {
+        let glow = gather3::<T::Wide>(&worker.frame.scene.materials.glow, surfaces.materials(at));
+        let radiance = surfaces.throughput.load::<T::Wide>(at).scale(glow);
+        add(worker, surfaces.slots(at), radiance, surfaces.lanes(at));
+    }
+}
+
+/// Adds the chosen lanes to their slots.
+#[inline(always)]
+pub(super) fn add<T: Tier>(
+    worker: &mut Worker<T>,
+    slots: &[u32; WIDTH],
+    radiance: Vec3<T::Wide>,
+    lanes: u32,
+) {
+    for i in set_bits(lanes) {
+        worker.radiance.add(slots[i] as usize, radiance.get(i).map(Real::to_f32));
+    }
+}
+
+/// True if any component of a lane is more than zero (or NaN, which must be seen to be counted).
+#[inline(always)]
+pub(super) fn not_black<L: Lane>(c: Vec3<L>) -> L::Mask {
+    let zero = L::zero();
+    !(c.x.eq(zero) & c.y.eq(zero) & c.z.eq(zero))
+}

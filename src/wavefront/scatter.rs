@@ -1,0 +1,208 @@
+//! Secondary rays: mirrored, refracted, scattered; one function a kind of material.
+
+use super::medium::{enter, innermost, leave};
+use super::offset::offset_along;
+use super::queue::{PathLanes, PathQueue, list_lanes, set_bits};
+use super::surface_queue::SurfaceQueue;
+use super::wave::{WaveSamples, Worker};
+use crate::intersect::Tier;
+use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
+use crate::sampling::{ScatterDraw, bounce, child_branch, cosine_hemisphere, to_frame};
+use crate::scene::{Scatter, gather3};
+use crate::shading::{fresnel_dielectric, reflect, refract};
+
+/// Eight surfaces of one kind of material.
+struct Lanes<L: Lane> {
+    point: Vec3<L>,
+    error: L,
+    geometric_normal: Vec3<L>,
+    shading_normal: Vec3<L>,
+    direction: Vec3<L>,
+    /// Throughput times what the material passes on.
+    weight: Vec3<L>,
+    materials: [u32; WIDTH],
+    slot: [u32; WIDTH],
+    path: [u32; WIDTH],
+    from_inside: L::Mask,
+    lanes: u32,
+}
+
+/// Queues all secondary rays of the surfaces.
+pub(super) fn scatter<T: Tier>(
+    worker: &mut Worker<T>,
+    wave: WaveSamples,
+    depth: u32,
+    paths: &PathQueue<T::Real>,
+    surfaces: &SurfaceQueue<T::Real>,
+    next: &mut PathQueue<T::Real>,
+) {
+    for kind in Scatter::ALL {
+        let list = &surfaces.by_scatter[kind as usize];
+        for at in (0..list.len()).step_by(WIDTH) {
+            let (rows, lanes) = list_lanes(list, at);
+            let s = gather::<T>(worker, surfaces, &rows, lanes);
+            match kind {
+                Scatter::Absorb => {}
+                Scatter::Metal => mirror(worker, &s, paths, next),
+                Scatter::Dielectric => dielectric(worker, &s, paths, next),
+                Scatter::Diffuse => diffuse(worker, &s, wave, depth, paths, next),
+            }
+        }
+    }
+}
+
+fn gather<T: Tier>(
+    worker: &Worker<T>,
+    surfaces: &SurfaceQueue<T::Real>,
+    rows: &[u32; WIDTH],
+    lanes: u32,
+) -> Lanes<T::Wide> {
+    let scene = worker.frame.scene;
+    let materials = rows.map(|r| surfaces.material(r));
+    let tint = gather3::<T::Wide>(&scene.materials.tint, &materials);
+    let weight = surfaces.throughput.gather::<T::Wide>(rows).scale(tint);
+    let inside = set_bits(0xff).map(|i| surfaces.from_inside[rows[i] as usize] << i).sum();
+    let bright = weight.max_component().ge(T::Wide::constant(scene.settings.min_throughput));
+    Lanes {
+        point: surfaces.point.gather(rows),
+        error: T::Wide::from_fn(|i| surfaces.error[rows[i] as usize]),
+        geometric_normal: surfaces.geometric_normal.gather(rows),
+        shading_normal: surfaces.shading_normal.gather(rows),
+        direction: surfaces.direction.gather(rows),
+        weight,
+        materials,
+        slot: rows.map(|r| surfaces.slot(r)),
+        path: rows.map(|r| surfaces.path[r as usize]),
+        from_inside: Mask::from_bits(inside),
+        lanes: lanes & bright.bits(),
+    }
+}
+
+impl<L: Lane> Lanes<L> {
+    /// The mirrored direction; about the geometric normal where the shading normal would send it below the surface.
+    #[inline(always)]
+    fn mirrored(&self) -> Vec3<L> {
+        let smooth = reflect(self.direction, self.shading_normal);
+        let above = smooth.dot(self.geometric_normal).gt(L::zero());
+        if above.bits() & self.lanes == self.lanes {
+            return smooth;
+        }
+        Vec3::select(above, smooth, reflect(self.direction, self.geometric_normal))
+    }
+
+    /// Paths that leave on the side they came from, or on the other.
+    #[inline(always)]
+    fn leaving(
+        &self,
+        direction: Vec3<L>,
+        weight: Vec3<L>,
+        side: Side,
+        paths: &PathQueue<L::Scalar>,
+    ) -> PathLanes<L> {
+        let normal = if side == Side::Same { self.geometric_normal } else { -self.geometric_normal };
+        let which = if side == Side::Same { 0 } else { 1 };
+        PathLanes {
+            origin: offset_along(self.point, self.error, normal),
+            direction,
+            throughput: weight,
+            slot: self.slot,
+            medium: self.path.map(|p| paths.medium.get(p as usize).copied().unwrap_or_default()),
+            branch: self
+                .path
+                .map(|p| child_branch(paths.branch.get(p as usize).copied().unwrap_or_default(), which)),
+        }
+    }
+}
+
+/// Which side of the surface a secondary ray is on, seen from the ray that came.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Side {
+    Same,
+    Other,
+}
+
+fn mirror<T: Tier>(
+    worker: &mut Worker<T>,
+    s: &Lanes<T::Wide>,
+    paths: &PathQueue<T::Real>,
+    next: &mut PathQueue<T::Real>,
+) {
+    next.push(&s.leaving(s.mirrored(), s.weight, Side::Same, paths), s.lanes);
+    worker.rays.reflected += u64::from(s.lanes.count_ones());
+}
+
+/// One reflected and one refracted ray, weighted by Fresnel's formulas; only the first where all is reflected.
+fn dielectric<T: Tier>(
+    worker: &mut Worker<T>,
+    s: &Lanes<T::Wide>,
+    paths: &PathQueue<T::Real>,
+    next: &mut PathQueue<T::Real>,
+) {
+    let scene = worker.frame.scene;
+    let least = T::Wide::constant(scene.settings.min_throughput);
+    let mut through =
+        PathLanes { medium: beyond::<T>(s, paths), ..s.leaving(s.direction, s.weight, Side::Other, paths) };
+    let near = s.path.map(|p| paths.medium[p as usize]);
+    let eta = refraction_index::<T>(worker, &through.medium) / refraction_index::<T>(worker, &near);
+    let reflectance = fresnel_dielectric(s.direction.dot(s.shading_normal), eta);
+
+    let reflected = s.weight * reflectance;
+    let lanes = s.lanes & reflected.max_component().ge(least).bits();
+    next.push(&s.leaving(s.mirrored(), reflected, Side::Same, paths), lanes);
+    worker.rays.reflected += u64::from(lanes.count_ones());
+
+    let (direction, total) = refract(s.direction, s.shading_normal, eta);
+    through.throughput = s.weight * (T::Wide::one() - reflectance);
+    // A shading normal may bend the ray back to the side it came from; then it goes straight on.
+    let beyond = direction.dot(s.geometric_normal).lt(T::Wide::zero());
+    through.direction = Vec3::select(beyond, direction, s.direction);
+    let lanes = s.lanes & !total.bits() & through.throughput.max_component().ge(least).bits();
+    next.push(&through, lanes);
+    worker.rays.refracted += u64::from(lanes.count_ones());
+}
+
+/// The dielectrics around the refracted rays: one more on the way in, one less on the way out.
+fn beyond<T: Tier>(s: &Lanes<T::Wide>, paths: &PathQueue<T::Real>) -> [u64; WIDTH] {
+    let inside = s.from_inside.bits();
+    std::array::from_fn(|i| {
+        let (state, body) = (paths.medium[s.path[i] as usize], s.materials[i] as u16 + 1);
+        if inside >> i & 1 != 0 { leave(state, body) } else { enter(state, body) }
+    })
+}
+
+/// Index of refraction of the innermost dielectric; 1 outside of all.
+fn refraction_index<T: Tier>(worker: &Worker<T>, states: &[u64; WIDTH]) -> T::Wide {
+    let ior = &worker.frame.scene.materials.ior;
+    T::Wide::from_fn(|i| {
+        let index = match innermost(states[i]) {
+            0 => 1.0,
+            body => ior[usize::from(body) - 1],
+        };
+        <T::Real as crate::math::Real>::from_f32(index)
+    })
+}
+
+/// One ray into the hemisphere, by the cosine: the density cancels the cosine and pi of the diffuse lobe.
+fn diffuse<T: Tier>(
+    worker: &mut Worker<T>,
+    s: &Lanes<T::Wide>,
+    wave: WaveSamples,
+    depth: u32,
+    paths: &PathQueue<T::Real>,
+    next: &mut PathQueue<T::Real>,
+) {
+    let samples = s.slot.map(|slot| wave.of_slot(slot));
+    let lane = |f: &dyn Fn(usize) -> u32| <wide::u32x8 as BitLane>::from_fn(f);
+    let branch = lane(&|i| paths.branch[s.path[i] as usize]);
+    let (u, v) = worker.frame.sampler.pair::<T::Wide>(
+        lane(&|i| samples[i].0[0]),
+        lane(&|i| samples[i].0[1]),
+        lane(&|i| samples[i].1),
+        bounce(ScatterDraw::Direction, depth, branch),
+    );
+    let direction = to_frame(cosine_hemisphere(u, v), s.shading_normal);
+    // Below the surface (interpolated normals only) nothing is seen.
+    let lanes = s.lanes & direction.dot(s.geometric_normal).gt(T::Wide::zero()).bits();
+    next.push(&s.leaving(direction, s.weight, Side::Same, paths), lanes);
+    worker.rays.diffuse += u64::from(lanes.count_ones());
+}

@@ -1,0 +1,199 @@
+//! Surfaces that paths met, evaluated: what lights and secondary rays are computed from.
+
+use bumpalo::Bump;
+
+use super::extend::{Hits, KINDS};
+use super::queue::{Column3, PathQueue, column, compress, list_lanes, set_bits, words};
+use super::surface::{HitLanes, SurfaceLanes, evaluate};
+use crate::intersect::PrimId;
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
+use crate::scene::{NO_MATERIAL, NO_TEXTURE, Scatter, Scene, gather3, sample_texture};
+
+/// One row for each path that hit something, in the order of primitive kinds.
+///
+/// **Shape:** padded columns; in the padding stand surfaces that some row before had, so lanes need no care but masks.
+pub(super) struct SurfaceQueue<'a, R> {
+    pub(super) len: usize,
+    pub(super) point: Column3<'a, R>,
+    pub(super) error: &'a mut [R],
+    /// Both normals on the side that the path came from.
+    pub(super) geometric_normal: Column3<'a, R>,
+    pub(super) shading_normal: Column3<'a, R>,
+    pub(super) direction: Column3<'a, R>,
+    pub(super) throughput: Column3<'a, R>,
+    /// Diffuse coefficient after textures; empty where the scene has none, and the material's counts.
+    diffuse: Option<Column3<'a, R>>,
+    slot: &'a mut [u32],
+    material: &'a mut [u32],
+    /// Rows of the path queue.
+    pub(super) path: &'a mut [u32],
+    /// 1 where the path came from inside, against the outward normal.
+    pub(super) from_inside: &'a mut [u32],
+    /// Rows by what becomes of rays there.
+    pub(super) by_scatter: [bumpalo::collections::Vec<'a, u32>; 4],
+}
+
+impl<'a, R: Real> SurfaceQueue<'a, R> {
+    fn new(arena: &'a Bump, capacity: usize, textures: bool) -> Self {
+        // Each kind of primitive may end in a packet that is not full.
+        let n = capacity + WIDTH;
+        let list = || bumpalo::collections::Vec::new_in(arena);
+        Self {
+            len: 0,
+            point: Column3::new(arena, n),
+            error: column(arena, n),
+            geometric_normal: Column3::new(arena, n),
+            shading_normal: Column3::new(arena, n),
+            direction: Column3::new(arena, n),
+            throughput: Column3::new(arena, n),
+            diffuse: textures.then(|| Column3::new(arena, n)),
+            slot: column(arena, n),
+            material: column(arena, n),
+            path: column(arena, n),
+            from_inside: column(arena, n),
+            by_scatter: [list(), list(), list(), list()],
+        }
+    }
+
+    /// Evaluates all hits of a chunk of paths.
+    pub(super) fn evaluate<L: Lane<Scalar = R>>(
+        scene: &Scene,
+        queue: &PathQueue<R>,
+        first: usize,
+        hits: &Hits<R>,
+        arena: &'a Bump,
+    ) -> Self {
+        let capacity = hits.by_kind.iter().map(|list| list.len()).sum();
+        let mut surfaces = Self::new(arena, capacity, scene.requirements.textures);
+        for (kind, list) in KINDS.into_iter().zip(&hits.by_kind) {
+            for at in (0..list.len()).step_by(WIDTH) {
+                let (rows, lanes) = list_lanes(list, at);
+                let paths = rows.map(|r| r + first as u32);
+                let hit = gather_hits::<L>(queue, &paths, hits, &rows);
+                let surface = evaluate(&scene.geometry, kind, &hit);
+                let materials =
+                    std::array::from_fn(|i| material_of(scene, kind, hit.row[i], hit.instance[i]));
+                surfaces.push(scene, queue, &hit, surface, &paths, &materials, lanes);
+            }
+        }
+        surfaces
+    }
+
+    #[expect(
+        clippy::too_many_arguments,
+        reason = "one call, from the loop above; a struct would be made to be unpacked"
+    )]
+    #[inline(always)]
+    fn push<L: Lane<Scalar = R>>(
+        &mut self,
+        scene: &Scene,
+        queue: &PathQueue<R>,
+        hit: &HitLanes<L>,
+        surface: SurfaceLanes<L>,
+        paths: &[u32; WIDTH],
+        materials: &[u32; WIDTH],
+        lanes: u32,
+    ) {
+        let at = self.len;
+        let inside = hit.direction.dot(surface.geometric_normal).gt(L::zero());
+        let facing = |n: Vec3<L>| Vec3::select(inside, -n, n);
+        let geometric_normal = facing(surface.geometric_normal);
+        let shading_normal = towards(facing(surface.shading_normal), geometric_normal, hit.direction);
+        self.point.compress(at, surface.point, lanes);
+        compress(self.error, at, surface.error, lanes);
+        self.geometric_normal.compress(at, geometric_normal, lanes);
+        self.shading_normal.compress(at, shading_normal, lanes);
+        self.direction.compress(at, hit.direction, lanes);
+        self.throughput.compress(at, queue.throughput.gather::<L>(paths), lanes);
+        if let Some(diffuse) = &mut self.diffuse {
+            let plain = gather3::<L>(&scene.materials.diffuse, materials);
+            diffuse.compress(at, plain.scale(texture_color(scene, materials, surface.uv)), lanes);
+        }
+        for (k, i) in set_bits(lanes).enumerate() {
+            self.slot[at + k] = queue.slot[paths[i] as usize];
+            self.material[at + k] = materials[i];
+            self.path[at + k] = paths[i];
+            self.from_inside[at + k] = inside.bits() >> i & 1;
+            let scatter = scene.materials.scatter[materials[i] as usize];
+            if scatter != Scatter::Absorb {
+                self.by_scatter[scatter as usize].push((at + k) as u32);
+            }
+        }
+        self.len += lanes.count_ones() as usize;
+    }
+
+    /// The lanes from `at` on that hold rows.
+    pub(super) fn lanes(&self, at: usize) -> u32 {
+        let count = (self.len - at).min(WIDTH);
+        ((1u64 << count) - 1) as u32
+    }
+    /// Slots of eight rows.
+    pub(super) fn slots(&self, at: usize) -> &[u32; WIDTH] {
+        words(self.slot, at)
+    }
+    /// Material rows of eight rows.
+    pub(super) fn materials(&self, at: usize) -> &[u32; WIDTH] {
+        words(self.material, at)
+    }
+    /// Material row of a row.
+    pub(super) fn material(&self, row: u32) -> u32 {
+        self.material[row as usize]
+    }
+    /// Slot of a row.
+    pub(super) fn slot(&self, row: u32) -> u32 {
+        self.slot[row as usize]
+    }
+    /// Diffuse coefficients of eight rows.
+    #[inline(always)]
+    pub(super) fn diffuse<L: Lane<Scalar = R>>(&self, scene: &Scene, at: usize) -> Vec3<L> {
+        match &self.diffuse {
+            Some(diffuse) => diffuse.load(at),
+            None => gather3(&scene.materials.diffuse, self.materials(at)),
+        }
+    }
+}
+
+#[inline(always)]
+fn gather_hits<L: Lane>(
+    queue: &PathQueue<L::Scalar>,
+    paths: &[u32; WIDTH],
+    hits: &Hits<L::Scalar>,
+    rows: &[u32; WIDTH],
+) -> HitLanes<L> {
+    let one = |column: &[L::Scalar]| L::from_fn(|i| column[rows[i] as usize]);
+    HitLanes {
+        origin: queue.origin.gather(paths),
+        direction: queue.direction.gather(paths),
+        t: one(hits.t),
+        u: one(hits.u),
+        v: one(hits.v),
+        row: rows.map(|r| PrimId(hits.prim[r as usize]).row() as u32),
+        instance: rows.map(|r| hits.instance.get(r as usize).copied().unwrap_or(0)),
+    }
+}
+
+fn material_of(scene: &Scene, kind: crate::intersect::PrimKind, row: u32, instance: u32) -> u32 {
+    let override_of = |n: u32| scene.geometry.instances[n as usize - 1].material;
+    match instance {
+        n if n != 0 && override_of(n) != NO_MATERIAL => override_of(n),
+        _ => scene.geometry.material(kind, row as usize),
+    }
+}
+
+/// The shading normal where the path can see its front, the geometric one elsewhere: at grazing angles an interpolated
+/// normal may face away.
+#[inline(always)]
+fn towards<L: Lane>(shading: Vec3<L>, geometric: Vec3<L>, direction: Vec3<L>) -> Vec3<L> {
+    Vec3::select(shading.dot(direction).lt(L::zero()), shading, geometric)
+}
+
+/// Texture colours; white where a material has no texture.
+fn texture_color<L: Lane>(scene: &Scene, materials: &[u32; WIDTH], (u, v): (L, L)) -> Vec3<L> {
+    let of = |i: usize| match scene.materials.texture[materials[i] as usize] {
+        NO_TEXTURE => [1.0; 3],
+        row => sample_texture(&scene.textures[row as usize], [u.get(i).to_f32(), v.get(i).to_f32()]),
+    };
+    let colors: [[f32; 3]; WIDTH] = std::array::from_fn(|i| of(i.min(L::WIDTH - 1)));
+    let channel = |c: usize| L::from_fn(|i| <L::Scalar as Real>::from_f32(colors[i][c]));
+    Vec3::new(channel(0), channel(1), channel(2))
+}

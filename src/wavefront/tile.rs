@@ -1,0 +1,61 @@
+//! Tiles: which pixels a worker renders at a time, and in which order.
+
+use crate::film::PixelSum;
+
+/// Edge of a tile in pixels.
+pub(super) const TILE: u32 = 32;
+/// Pixels that share a packet: a block of this width and height.
+const BLOCK: [u32; 2] = [4, 2];
+
+/// A rectangle of pixels: left, top, width, height.
+pub(super) type Rect = [u32; 4];
+
+/// The tiles that cover a rectangle, row by row.
+pub(super) fn tiles([x, y, width, height]: Rect) -> Vec<Rect> {
+    let steps = |from: u32, size: u32| (from..from + size).step_by(TILE as usize);
+    let tile = |tx: u32, ty: u32| [tx, ty, TILE.min(x + width - tx), TILE.min(y + height - ty)];
+    steps(y, height).flat_map(|ty| steps(x, width).map(move |tx| tile(tx, ty))).collect()
+}
+
+/// The pixels of a tile, block by block, so that eight neighbours in the list are neighbours in the picture.
+pub(super) fn pixels([x, y, width, height]: Rect, list: &mut Vec<[u32; 2]>) {
+    list.clear();
+    for by in (0..height).step_by(BLOCK[1] as usize) {
+        for bx in (0..width).step_by(BLOCK[0] as usize) {
+            for dy in by..(by + BLOCK[1]).min(height) {
+                list.extend((bx..(bx + BLOCK[0]).min(width)).map(|dx| [x + dx, y + dy]));
+            }
+        }
+    }
+}
+
+/// Sums of the pixels of a tile: three channels and the weight.
+pub(super) type Sums = Vec<PixelSum<4>>;
+
+/// The mean of a pixel's samples: over the sum of weights, which is their number where samples have no weights.
+pub(super) fn mean([r, g, b, weight]: [f32; 4]) -> [f32; 3] {
+    // Weights of a filter with negative lobes may cancel in a pixel with few samples: such a pixel says nothing.
+    if weight > 0.0 { [r / weight, g / weight, b / weight] } else { [0.0; 3] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::collections::HashSet;
+
+    #[test]
+    fn tiles_and_their_pixels_cover_every_pixel_once() {
+        for rect in [[0, 0, 64, 64], [3, 5, 70, 33], [9, 9, 1, 1], [0, 0, 33, 2]] {
+            let mut seen = HashSet::new();
+            let mut list = Vec::new();
+            for tile in tiles(rect) {
+                pixels(tile, &mut list);
+                assert!(list.iter().all(|&p| seen.insert(p)), "a pixel twice");
+            }
+            assert_eq!(seen.len() as u32, rect[2] * rect[3]);
+            assert!(seen.iter().all(|&[x, y]| {
+                (rect[0]..rect[0] + rect[2]).contains(&x) && (rect[1]..rect[1] + rect[3]).contains(&y)
+            }));
+        }
+    }
+}

@@ -1,0 +1,89 @@
+//! What the stages of one worker share.
+
+use crate::accel::Traversal;
+use crate::film::SampleSums;
+use crate::intersect::Tier;
+use crate::sampling::{FilterSampler, Sampler};
+use crate::scene::{Scatter, Scene};
+
+use super::queue::PathNeeds;
+
+/// Rays traced, by their reason.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RayCounts {
+    /// From the camera.
+    pub camera: u64,
+    /// Towards lights.
+    pub shadow: u64,
+    /// Mirrored.
+    pub reflected: u64,
+    /// Refracted.
+    pub refracted: u64,
+    /// Scattered at random.
+    pub diffuse: u64,
+}
+
+impl RayCounts {
+    /// All of them.
+    pub fn total(&self) -> u64 {
+        self.camera + self.shadow + self.reflected + self.refracted + self.diffuse
+    }
+    /// The sum by reason.
+    pub fn plus(&self, o: &Self) -> Self {
+        Self {
+            camera: self.camera + o.camera,
+            shadow: self.shadow + o.shadow,
+            reflected: self.reflected + o.reflected,
+            refracted: self.refracted + o.refracted,
+            diffuse: self.diffuse + o.diffuse,
+        }
+    }
+}
+
+/// Which samples a wave holds: slot `k * pixels.len() + p` is sample `first_sample + k` of pixel `p`.
+#[derive(Clone, Copy)]
+pub(super) struct WaveSamples<'a> {
+    pub(super) pixels: &'a [[u32; 2]],
+    pub(super) first_sample: u32,
+    pub(super) samples: u32,
+}
+
+impl WaveSamples<'_> {
+    pub(super) fn len(&self) -> usize {
+        self.pixels.len() * self.samples as usize
+    }
+    /// Pixel and sample number of a slot.
+    #[inline(always)]
+    pub(super) fn of_slot(&self, slot: u32) -> ([u32; 2], u32) {
+        let n = self.pixels.len() as u32;
+        (self.pixels[(slot % n) as usize], self.first_sample + slot / n)
+    }
+}
+
+/// What does not change while a picture is rendered.
+pub(super) struct Frame<'a> {
+    pub(super) scene: &'a Scene,
+    pub(super) sampler: Sampler,
+    pub(super) filter: FilterSampler,
+}
+
+impl<'a> Frame<'a> {
+    pub(super) fn new(scene: &'a Scene) -> Self {
+        let s = &scene.settings;
+        Self { scene, sampler: Sampler::new(s.sampler, s.spp, s.seed), filter: s.filter.sampler() }
+    }
+    pub(super) fn path_needs(&self) -> PathNeeds {
+        let r = &self.scene.requirements;
+        PathNeeds { medium: r.scatters(Scatter::Dielectric), branch: r.scatters(Scatter::Diffuse) }
+    }
+}
+
+/// What a worker adds to while it goes through waves.
+pub(super) struct Worker<'a, T: Tier> {
+    pub(super) frame: &'a Frame<'a>,
+    pub(super) traversal: Traversal<'a>,
+    /// Radiance of each slot of the wave.
+    pub(super) radiance: SampleSums,
+    pub(super) rays: RayCounts,
+    pub(super) tier: std::marker::PhantomData<T>,
+}
