@@ -5,7 +5,7 @@ use crate::math::{Lane, Vec3};
 
 /// The direction of the mirrored ray, of length one. The normal may point to either side.
 ///
-/// **Needs:** `direction` and `normal` of length one. **Accuracy:** length within 2e-7 (`f32`) at any depth: it is
+/// **Needs:** `direction` and `normal` of length one. **Accuracy:** length within 3e-7 (`f32`) at any depth: it is
 /// normalised, so errors do not grow from bounce to bounce.
 #[inline(always)]
 pub fn reflect<L: Lane>(direction: Vec3<L>, normal: Vec3<L>) -> Vec3<L> {
