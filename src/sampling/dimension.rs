@@ -28,7 +28,7 @@ pub enum ScatterDraw {
 /// Distinct for distinct (draw, depth, branch) up to depth 254 and branch 2^21 - 1; beyond, numbers repeat.
 #[inline(always)]
 pub fn bounce<W: BitLane>(draw: ScatterDraw, depth: u32, branch: W) -> W {
-    let decision = draw as u32 | (depth + 1 & 0xff) << 3;
+    let decision = draw as u32 | ((depth + 1) & 0xff) << 3;
     branch.shl(11) ^ W::splat(decision)
 }
 

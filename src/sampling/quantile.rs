@@ -10,7 +10,7 @@ const STEPS: usize = 4 * CELLS;
 /// Samples of an even density on `[-1, 1]`.
 ///
 /// **Accuracy:** the distribution of the samples is within 7e-5 of the true one (Kolmogorov distance). At the entries it is
-/// exact to 1e-8; between them the worst is a density that rises from zero as a cube (the B-spline's tail), where the
+/// exact to 1e-7; between them the worst is a density that rises from zero as a cube (the B-spline's tail), where the
 /// chord leaves the distribution by 0.48 of a cell, and a cell holds 1/8192.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Quantiles {

@@ -40,7 +40,7 @@ struct Grid {
 
 impl Grid {
     fn new(samples: u32) -> Self {
-        // A root of two below or above sqrt(samples), whichever is nearer by ratio: 4^k <= 2 samples < 4^(k+1).
+        // The power of two nearest to sqrt(samples) by ratio: 4^k <= 2 samples < 4^(k+1).
         let log2_columns = (samples * 2).ilog2() / 2;
         Self { samples, log2_columns, rows: samples.div_ceil(1 << log2_columns) }
     }

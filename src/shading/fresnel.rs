@@ -11,20 +11,27 @@ use crate::math::Lane;
 ///
 /// **Accuracy:** within 1e-6 of the closed form (`f32`), away from the critical angle, where the slope is infinite.
 ///
-/// **Source:** Fresnel's equations, as in Born and Wolf, Principles of Optics, 1.5.2, for non-absorbing media; the sine on
-/// the far side from Snell's law.
+/// **Source:** Fresnel's equations, as in Born and Wolf, Principles of Optics, 1.5.2, for non-absorbing media; the cosine
+/// on the far side from Snell's law.
 #[inline(always)]
 pub fn fresnel_dielectric<L: Lane>(cos_i: L, eta: L) -> L {
-    let one = L::one();
-    let cos_i = cos_i.abs().min(one);
-    // (1 - c)(1 + c) keeps the digits that 1 - c^2 loses near normal incidence.
-    let sin2_t = (one - cos_i) * (one + cos_i) / (eta * eta);
-    let cos_t = (one - sin2_t).max(L::zero()).sqrt();
+    let cos_i = cos_i.abs().min(L::one());
+    let (cos_t, total) = snell(cos_i, eta);
     let parallel = (eta * cos_i - cos_t) / (eta * cos_i + cos_t);
     let perpendicular = (cos_i - eta * cos_t) / (cos_i + eta * cos_t);
     let share = (parallel * parallel + perpendicular * perpendicular) * L::constant(0.5);
-    // At the critical angle itself both are 1; the select also takes 0/0 out (equal media at grazing incidence).
-    L::select(sin2_t.ge(one), one, share)
+    L::select(total, L::one(), share)
+}
+
+/// The cosine on the far side, and where there is none because all light is reflected (the critical angle and equal media
+/// at cosine zero included, where the share is 1 or 0/0).
+///
+/// `eta^2 - 1 + cos^2` over `eta^2` rather than `1 - sin^2 / eta^2`: in equal media the ray goes on unbent to the bit, also at
+/// grazing incidence, where the sine has lost the cosine.
+#[inline(always)]
+pub(super) fn snell<L: Lane>(cos_i: L, eta: L) -> (L, L::Mask) {
+    let squared = (eta - L::one()) * (eta + L::one()) + cos_i * cos_i;
+    (squared.max(L::zero()).sqrt() / eta, squared.le(L::zero()))
 }
 
 #[cfg(test)]
@@ -76,7 +83,9 @@ mod tests {
             assert_eq!(fresnel_dielectric(-0.0, eta), 1.0);
             assert!((0.0..=1.0).contains(&fresnel_dielectric(1.0 + 1e-6, eta)));
         }
-        assert_eq!(fresnel_dielectric(0.3f32, 1.0), 0.0, "equal media have no surface");
+        for cos in [1.0, 0.3, 1e-5, 1e-15] {
+            assert!(fresnel_dielectric::<f32>(cos, 1.0) < 1e-12, "equal media have no surface: {cos}");
+        }
     }
 
     proptest! {

@@ -110,10 +110,10 @@ mod tests {
 
     #[test]
     fn irradiance_falls_with_the_square_of_the_distance() {
-        let lit = LAMP.illuminate(Vec3::splat([0.0f32, 0.0, 0.0]));
+        let lit = LAMP.illuminate(Vec3::<f32>::splat([0.0, 0.0, 0.0]));
         assert_eq!(lit.to_light.get(0), [0.0, 4.0, 0.0]);
         assert_eq!((lit.distance_squared, lit.irradiance.get(0)), (16.0, [2.0, 1.0, 0.0]));
-        assert_eq!(LAMP.illuminate(Vec3::splat([8.0f32, 4.0, 0.0])).irradiance.x, 0.5);
+        assert_eq!(LAMP.illuminate(Vec3::<f32>::splat([8.0, 4.0, 0.0])).irradiance.x, 0.5);
     }
 
     /// A sphere of any radius around the light catches 4 pi times the intensity.

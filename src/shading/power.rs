@@ -1,6 +1,6 @@
 //! Powers of cosines, with the same bits on every machine and in every lane.
 
-use crate::math::{BitLane, Lane, Mask};
+use crate::math::{BitLane, Lane};
 
 /// Fractional bits of a [`Shininess`].
 const FRACTION_BITS: u32 = 8;
