@@ -42,11 +42,7 @@ impl<'a> Sources<'a> {
     /// The diagnostic of a fault, at its key, or at the nearest table around it that was written.
     pub(super) fn diagnose_fault(&self, root: &Spanned<DeTable<'_>>, fault: Fault) -> Diagnostic {
         let span = span_of(root, &fault.path);
-        let message = match fault.path.last() {
-            Some(PathPart::Key(key)) => format!("`{key}` {}", fault.message),
-            _ => fault.message,
-        };
-        self.diagnose(span.start, message, fault.help)
+        self.diagnose(span.start, fault.message, fault.help)
     }
 }
 

@@ -20,6 +20,7 @@ pub(super) fn parse(path: &Path, bytes: &[u8], options: LoadOptions) -> Result<M
         .map_err(|error| malformed(reader.line.saturating_sub(1).max(1), error.to_string()))?;
     let mut mesh = Mesh::default();
     mesh.report.degenerate = prepared.thin_faces;
+    mesh.report.notes.clone_from(&prepared.notes);
     for library in libraries {
         mesh.materials.extend(library.materials);
     }

@@ -14,6 +14,8 @@ pub(super) struct ObjText {
     pub(super) materials: Vec<(usize, String)>,
     /// Faces with fewer than three corners.
     pub(super) thin_faces: usize,
+    /// What was odd but could be read.
+    pub(super) notes: Vec<String>,
     /// Vertices, texture coordinates and normals so far.
     counts: [usize; 3],
     /// The highest number used of each, and the line.
@@ -22,6 +24,9 @@ pub(super) struct ObjText {
 
 /// What is wrong in which line.
 pub(super) type LineError = (usize, String);
+
+/// Stands for a number below zero that reaches before the first one.
+const TOO_FAR_BACK: usize = usize::MAX;
 
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
@@ -130,7 +135,7 @@ impl ObjText {
                     }
                 }
                 index if index.unsigned_abs() > count as u64 => {
-                    return Err(format!("`{corner}` counts back {} of {count}: {}", -index, KINDS[kind]));
+                    self.highest[kind] = (TOO_FAR_BACK, number);
                 }
                 _ => {}
             }
@@ -139,12 +144,23 @@ impl ObjText {
     }
 
     /// Numbers may point ahead, so the highest ones are compared at the end.
-    fn check_highest(&self) -> Result<(), LineError> {
-        let outside = (0..3).find(|&kind| self.highest[kind].0 > self.counts[kind]);
-        outside.map_or(Ok(()), |kind| {
+    ///
+    /// Some programs write numbers of texture coordinates or normals and leave out the coordinates: these are ignored.
+    fn check_highest(&mut self) -> Result<(), LineError> {
+        for (kind, name) in KINDS.into_iter().enumerate() {
             let ((index, line), count) = (self.highest[kind], self.counts[kind]);
-            Err((line, format!("a face uses {} {index}: the file has {count}", KINDS[kind])))
-        })
+            if index <= count {
+                continue;
+            }
+            if kind > 0 && count == 0 {
+                self.notes.push(format!("faces name {name}s, but the file has none"));
+            } else if index == TOO_FAR_BACK {
+                return Err((line, format!("a face counts back to a {name} before the first")));
+            } else {
+                return Err((line, format!("a face uses {name} {index}: the file has {count}")));
+            }
+        }
+        Ok(())
     }
 }
 
@@ -162,9 +178,10 @@ mod tests {
     fn indices_outside_name_their_line() {
         assert_eq!(fault("f 1 2 3\nf 1 2 4\n"), (5, "a face uses vertex 4: the file has 3".into()));
         assert_eq!(fault("f 0 1 2").0, 4);
-        assert!(fault("f -4 -2 -1").1.contains("counts back 4 of 3"));
-        assert!(fault("f 1/1 2/2 3/3").1.contains("texture coordinate"));
-        assert!(fault("f 1//1 2//1 3//1").1.contains("normal"));
+        assert!(fault("f -4 -2 -1").1.contains("counts back to a vertex before the first"));
+        assert!(fault("vt 0 0\nf 1/1 2/2 3/1").1.contains("texture coordinate 2: the file has 1"));
+        assert!(fault("vn 0 0 1\nf 1//1 2//-2 3//1").1.contains("normal before the first"));
+        assert!(fault("f 1//-2 2//1 3//1\nvn 0 0 1").1.contains("normal before the first"));
         for bad in [
             "f 1 2 x",
             "f 1/2/3/4 1 2",
@@ -174,6 +191,12 @@ mod tests {
         ] {
             assert_eq!(fault(bad).0, 4, "{bad}");
         }
+    }
+
+    #[test]
+    fn numbers_of_attributes_that_are_nowhere_are_ignored() {
+        let prepared = prepare(&format!("{TRIANGLE}f 1/7/-2 2/8/1 3/9/1\n")).unwrap();
+        assert_eq!(prepared.notes.len(), 2, "{:?}", prepared.notes);
     }
 
     #[test]

@@ -133,5 +133,5 @@ mod tests {
         assert_eq!(height(0.25, -0.5, 0).to_bits(), HEIGHT_AT_QUARTER_BITS);
     }
 
-    const HEIGHT_AT_QUARTER_BITS: u64 = 0;
+    const HEIGHT_AT_QUARTER_BITS: u64 = 4_592_036_113_440_526_111;
 }

@@ -96,9 +96,9 @@ impl Faults {
         }
     }
 
-    /// A fault of one key.
-    pub(super) fn add_at(&mut self, key: &'static str, message: impl Into<String>) {
-        self.at(key, |f| f.add(message));
+    /// A fault of one key, whose name becomes the first word of the message.
+    pub(super) fn add_at(&mut self, key: &'static str, message: impl fmt::Display) {
+        self.at(key, |f| f.add(format!("`{key}` {message}")));
     }
 
     pub(super) fn require(&mut self, key: &'static str, holds: bool, message: &str) {
@@ -111,7 +111,7 @@ impl Faults {
     pub(super) fn point(&mut self, key: &'static str, value: &[f64]) -> bool {
         let bad = value.iter().find(|x| !x.is_finite() || x.abs() > LARGEST);
         if let Some(x) = bad {
-            self.add_at(key, format!("{x} is not a coordinate: numbers between -1e18 and 1e18 are"));
+            self.add_at(key, format!("has no place for {x}: numbers must lie between -1e18 and 1e18"));
         }
         bad.is_none()
     }

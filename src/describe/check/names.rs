@@ -48,9 +48,9 @@ impl<'a> Names<'a> {
 
 fn once<'a>(f: &mut Faults, seen: &mut HashSet<&'a str>, name: &'a str, what: &str) {
     if name.is_empty() {
-        f.add_at("name", format!("the name of a {what} must not be empty"));
+        f.at("name", |f| f.add(format!("the name of a {what} must not be empty")));
     } else if !seen.insert(name) {
-        f.add_at("name", format!("there is another {what} named `{name}`"));
+        f.at("name", |f| f.add(format!("there is another {what} named `{name}`")));
     }
 }
 
@@ -111,5 +111,5 @@ fn visit(f: &mut Faults, scene: &SceneDescription, state: &mut [u8], start: usiz
 
 fn circle(f: &mut Faults, group: usize, instance: usize, of: &str) {
     let message = format!("group `{of}` would contain itself");
-    f.nth("group", group, |f| f.nth("instance", instance, |f| f.add_at("of", message)));
+    f.nth("group", group, |f| f.nth("instance", instance, |f| f.at("of", |f| f.add(message))));
 }

@@ -87,7 +87,7 @@ fn mesh(f: &mut Faults, m: &Mesh, names: &Names<'_>) {
 fn inline_mesh(f: &mut Faults, vertices: &[[f64; 3]], faces: &[Vec<u32>]) {
     f.each("vertices", vertices, |f, vertex| {
         if !vertex.iter().all(|x| x.abs() <= 1e18) {
-            f.add("is not a point: numbers between -1e18 and 1e18 are coordinates");
+            f.add("not a point: coordinates must lie between -1e18 and 1e18");
         }
     });
     f.require("faces", !faces.is_empty(), "a mesh needs at least one face");

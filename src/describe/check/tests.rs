@@ -25,7 +25,7 @@ fn expect(rest: &str, line: usize, part: &str) {
 fn numbers_out_of_range() {
     expect("[[sphere]]\ncenter = [0, 0, 0]\nradius = 0\n", 6, "`radius` must be above 0");
     expect("[[sphere]]\ncenter = [0, 0, 0]\nradius = -1\n", 6, "`radius` must be above 0");
-    expect("[[sphere]]\nradius = 1\ncenter = [0, nan, 0]\n", 6, "`center` NaN");
+    expect("[[sphere]]\nradius = 1\ncenter = [0, nan, 0]\n", 6, "`center` has no place for NaN");
     expect("[[sphere]]\nradius = inf\ncenter = [0, 0, 0]\n", 5, "`radius`");
     expect("[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 0]\n", 6, "has no direction");
     expect("[render]\nspp = 0\n", 5, "at least 1 sample");
@@ -125,5 +125,5 @@ fn faults_of_a_description_made_by_code_have_paths() {
     scene.sphere[0].radius = f64::NAN;
     let faults = scene.check().unwrap_err();
     assert_eq!(faults[0].path(), "sphere.0.radius");
-    assert!(faults[0].to_string().starts_with("sphere.0.radius: must be above 0"));
+    assert!(faults[0].to_string().starts_with("sphere.0.radius: `radius` must be above 0"));
 }
