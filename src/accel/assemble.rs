@@ -42,7 +42,7 @@ impl Accel {
     ///
     /// The result is the same for any number of threads. The current rayon pool is used.
     pub fn build(geometry: &Geometry) -> Self {
-        let mut accel = Self::default();
+        let mut accel = Self::empty();
         let mut roots = vec![TreeRoot::default(); geometry.groups.len()];
         let mut bounds = vec![Aabb::EMPTY; geometry.groups.len()];
         for (i, group) in geometry.groups.iter().enumerate().skip(1) {
@@ -53,12 +53,28 @@ impl Accel {
         let placed: Vec<Aabb> = geometry.instances.iter().map(|i| instance_bounds(i, &bounds)).collect();
         let world = geometry.groups.first().cloned().unwrap_or_default();
         let built = group_tree(geometry, &world, &placed);
+        accel.bounds = built.tree.bounds;
         accel.world = accel.append(geometry, built);
         let place = |i: &Instance| PlacedTree { tree: roots[i.group], to_world: i.to_world };
         accel.instances = geometry.instances.iter().map(place).collect();
         let p = &geometry.planes;
         accel.planes = (0..p.len()).map(|i| [row3(&p.point, i), row3(&p.normal, i)]).collect();
         accel
+    }
+
+    fn empty() -> Self {
+        Self {
+            nodes: Vec::new(),
+            triangles: Vec::new(),
+            spheres: Vec::new(),
+            cylinders: Vec::new(),
+            instance_blocks: Vec::new(),
+            instances: Vec::new(),
+            planes: Vec::new(),
+            world: TreeRoot::default(),
+            bounds: Aabb::EMPTY,
+            stack_bound: 0,
+        }
     }
 
     /// Appends a tree and its packed leaves to the shared arrays.

@@ -16,14 +16,14 @@ use block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
 use node::{ChildRef, Node8};
 
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Lane, Transform, Vec3};
+use crate::math::{Aabb, Lane, Transform, Vec3};
 use leaf::PreparedRays;
 use query::Query;
 
 pub use traversal::{Hint, Traversal};
 
 /// Trees of all groups of a scene, and their leaves, packed.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct Accel {
     nodes: Vec<Node8>,
     triangles: Vec<TriangleBlock>,
@@ -33,6 +33,7 @@ pub struct Accel {
     instances: Vec<PlacedTree>,
     planes: Vec<[[f32; 3]; 2]>,
     world: TreeRoot,
+    bounds: Aabb,
     stack_bound: usize,
 }
 
@@ -53,6 +54,30 @@ struct PlacedTree {
 impl Accel {
     /// Kind number of leaves that hold instances.
     const INSTANCE: u8 = 4;
+
+    /// Box of everything but planes, which have none.
+    pub fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+    /// Nodes of all trees.
+    pub fn node_count(&self) -> usize {
+        self.nodes.len()
+    }
+    /// Leaves of all trees.
+    pub fn leaf_count(&self) -> usize {
+        self.triangles.len() + self.spheres.len() + self.cylinders.len() + self.instance_blocks.len()
+    }
+    /// Name and bytes of each array.
+    pub fn memory(&self) -> Vec<(String, u64)> {
+        let sizes = [
+            ("tree.nodes", size_of_val(&self.nodes[..])),
+            ("tree.triangle_blocks", size_of_val(&self.triangles[..])),
+            ("tree.sphere_blocks", size_of_val(&self.spheres[..])),
+            ("tree.cylinder_blocks", size_of_val(&self.cylinders[..])),
+            ("tree.instances", size_of_val(&self.instance_blocks[..]) + size_of_val(&self.instances[..])),
+        ];
+        sizes.map(|(name, size)| (name.to_owned(), size as u64)).to_vec()
+    }
 
     /// Rays in the space of an instance; `t` keeps its meaning, since directions keep their lengths' ratio.
     #[inline(always)]

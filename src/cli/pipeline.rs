@@ -1,102 +1,88 @@
 //! The way from a scene's name to a film, for the verbs.
 //!
-//! The stages below describe, scene and wavefront are joined here and nowhere else in the command line.
-#![allow(dead_code, reason = "the stages that these types come from are not joined yet")]
+//! The stages describe, load, scene and wavefront are joined here and nowhere else in the command line.
 
-use std::sync::atomic::AtomicBool;
-use std::time::Duration;
+use std::io::Read;
+use std::path::Path;
 
 use super::error::{CliError, Exit};
 use super::source::SceneSource;
-use crate::film::{Film, Tone};
+use crate::describe::{self, DescribeError, Origin, SceneDescription};
+use crate::load::load_mesh;
+use crate::scene::Scene;
 
-/// How far a render is.
-pub(super) struct Progress {
-    pub(super) pixels_done: u64,
-    pub(super) pixels_total: u64,
-    pub(super) rays: u64,
-}
+pub(super) use crate::wavefront::{Progress, RenderError, RenderOptions, RenderReport, render};
 
-/// Rays by their reason.
-#[derive(Default)]
-pub(super) struct RayCounts {
-    pub(super) camera: u64,
-    pub(super) shadow: u64,
-    pub(super) reflected: u64,
-    pub(super) refracted: u64,
-    pub(super) diffuse: u64,
-}
+/// Endings of meshes, which a scene is framed around.
+const MESHES: [&str; 3] = ["obj", "ply", "stl"];
 
-/// What a render did.
-pub(super) struct RenderReport {
-    pub(super) rays: RayCounts,
-    pub(super) samples: u64,
-    pub(super) nan_samples: u64,
-    pub(super) render_time: Duration,
-    pub(super) threads: usize,
-}
-
-/// How a scene is rendered.
-pub(super) struct RenderOptions<'a> {
-    pub(super) threads: usize,
-    pub(super) crop: Option<[u32; 4]>,
-    pub(super) progress: Option<&'a (dyn Fn(Progress) + Sync)>,
-    pub(super) cancel: Option<&'a AtomicBool>,
-}
-
-/// Why a render gave no film.
-#[derive(Debug, thiserror::Error)]
-pub(super) enum RenderError {
-    #[error("cancelled")]
-    Cancelled,
-}
-
-/// A scene ready to render.
+/// A scene ready to render, and its name.
 pub(super) struct Opened {
     pub(super) name: String,
-    pub(super) tone: Tone,
-    pub(super) load_time: Duration,
-    pub(super) build_time: Duration,
-}
-
-/// A built-in scene's name and what it shows.
-pub(super) struct BuiltIn {
-    pub(super) name: &'static str,
-    pub(super) summary: &'static str,
+    pub(super) scene: Scene,
 }
 
 /// Reads the scene, applies `assignments` in order, compiles it.
 ///
 /// **Errors**: exit 3 for a bad scene or asset, 2 for a bad assignment.
-pub(super) fn open(source: &SceneSource, _assignments: &[(String, String)]) -> Result<Opened, CliError> {
-    Err(not_wired(&format!("cannot load {source}")))
+pub(super) fn open(source: &SceneSource, assignments: &[(String, String)]) -> Result<Opened, CliError> {
+    let sets: Vec<String> = assignments.iter().map(|(key, value)| format!("{key}={value}")).collect();
+    let description = describe(source, &sets)?;
+    let scene = Scene::compile(&description).map_err(|error| CliError::of(Exit::Scene, error))?;
+    Ok(Opened { name: source.to_string(), scene })
 }
 
-/// Renders an opened scene.
-pub(super) fn render(_scene: &Opened, _options: &RenderOptions) -> Result<(Film, RenderReport), RenderError> {
-    Err(RenderError::Cancelled)
+fn describe(source: &SceneSource, sets: &[String]) -> Result<SceneDescription, CliError> {
+    match source {
+        SceneSource::Stdin => {
+            let mut text = String::new();
+            let read = std::io::stdin().read_to_string(&mut text);
+            read.map_err(|error| CliError::new(Exit::Failed, "cannot read standard input").because(error))?;
+            describe::parse_with(&text, "standard input", sets).map_err(refused)
+        }
+        SceneSource::File(path) if is_mesh(path) => framed(path)?.amended(&source.to_string(), sets).map_err(refused),
+        SceneSource::File(path) => describe::read_with(path, sets).map_err(refused),
+        SceneSource::BuiltIn(name) => builtin(name)?.amended(name, sets).map_err(refused),
+    }
 }
 
-/// The text of `octray inspect`.
-pub(super) fn inspect(_scene: &Opened) -> String {
-    String::new()
+fn is_mesh(path: &Path) -> bool {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    ending.is_some_and(|e| MESHES.contains(&e.as_str()))
 }
 
-/// Every built-in scene.
-pub(super) fn builtin_scenes() -> Result<Vec<BuiltIn>, CliError> {
-    Err(not_wired("cannot list scenes"))
+/// A camera, lights and a floor around a bare mesh.
+fn framed(path: &Path) -> Result<SceneDescription, CliError> {
+    let mesh = load_mesh(path).map_err(|error| CliError::of(Exit::Scene, error))?;
+    let bounds = mesh.bounds().ok_or_else(|| {
+        CliError::new(Exit::Scene, format!("{}: has no triangle with an area", path.display()))
+    })?;
+    let path = std::path::absolute(path).unwrap_or(path.to_owned());
+    Ok(describe::framed_mesh(&path, bounds.map(|corner| corner.map(f64::from))))
+}
+
+fn builtin(name: &str) -> Result<SceneDescription, CliError> {
+    let scene = describe::builtin(name).map_err(|error| CliError::of(Exit::Usage, error))?;
+    scene.ok_or_else(|| {
+        let names: Vec<&str> = describe::builtin_scenes().iter().map(|scene| scene.usage).collect();
+        let known = names.join(", ");
+        CliError::new(
+            Exit::Usage,
+            format!("there is no built-in scene `{name}`: expected one of {known}, or a file's name with its ending"),
+        )
+    })
+}
+
+/// A description's fault: of use where all of it is in arguments, of the scene otherwise.
+fn refused(error: DescribeError) -> CliError {
+    let of_use = match &error {
+        DescribeError::Invalid(all) => all.iter().all(|d| matches!(d.origin, Origin::Set { .. })),
+        _ => false,
+    };
+    CliError::of(if of_use { Exit::Usage } else { Exit::Scene }, error)
 }
 
 /// A built-in scene as a scene file.
 pub(super) fn builtin_toml(name: &str) -> Result<String, CliError> {
-    Err(not_wired(&format!("cannot write {name}")))
-}
-
-/// The JSON Schema of scene files.
-pub(super) fn schema() -> Result<String, CliError> {
-    Err(not_wired("cannot print the schema"))
-}
-
-fn not_wired(context: &str) -> CliError {
-    CliError::new(Exit::Failed, context).because("not wired")
+    builtin(name).map(|scene| scene.to_toml())
 }

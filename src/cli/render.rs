@@ -53,8 +53,10 @@ fn render(
     };
     interrupt.defer(true);
     reporter.begin();
-    pipeline::render(scene, &options).map_err(|error| match error {
+    pipeline::render(&scene.scene, &options).map_err(|error| match error {
         RenderError::Cancelled => interrupted(reporter, destination),
+        error @ RenderError::Crop { .. } => CliError::of(Exit::Usage, error),
+        error => CliError::of(Exit::Failed, error),
     })
 }
 
@@ -68,13 +70,13 @@ fn write(
     // A regular file is finished even after a signal, which is quick; a pipe may never be read.
     interrupt.defer(!destination.may_block());
     let begun = Instant::now();
-    let written = destination.write(film, scene.tone)?;
+    let written = destination.write(film, scene.scene.settings.tone)?;
     Ok(Summary {
         scene: scene.name.clone(),
         size: [film.width, film.height],
         report,
-        load_time: scene.load_time,
-        build_time: scene.build_time,
+        load_time: scene.scene.times.load,
+        build_time: scene.scene.times.build,
         write_time: begun.elapsed(),
         output: destination.to_string(),
         written,

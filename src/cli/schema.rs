@@ -1,9 +1,10 @@
 //! `octray schema`: the JSON Schema of scene files.
 
 use super::error::CliError;
-use super::{pipeline, stdio};
+use super::stdio;
+use crate::describe::schema;
 
 /// Prints the schema.
 pub fn run() -> Result<(), CliError> {
-    stdio::print(pipeline::schema()?.as_bytes())
+    stdio::print(format!("{}\n", schema()).as_bytes())
 }

@@ -102,7 +102,7 @@ impl fmt::Display for Summary {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::pipeline::RayCounts;
+    use crate::wavefront::RayCounts;
 
     fn summary() -> Summary {
         let rays = RayCounts { camera: 1_228_800, shadow: 2_000_000, reflected: 5, refracted: 0, diffuse: 0 };

@@ -25,6 +25,7 @@
 //!
 //! **Units**: lengths in world units, angles in degrees, colours in linear sRGB, sizes in pixels.
 
+mod amend;
 mod background;
 mod builtin;
 mod camera;

@@ -5,6 +5,7 @@ mod compile;
 mod geometry;
 mod light;
 mod material;
+mod memory;
 mod requirements;
 mod texture;
 
