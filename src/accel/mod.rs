@@ -1,1 +1,5 @@
 //! Building and traversing the tree.
+
+pub mod build;
+pub mod node;
+pub mod validate;

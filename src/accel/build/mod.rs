@@ -1,0 +1,140 @@
+//! From boxes of primitives to the 8-wide tree; what the primitives are does not matter here.
+//!
+//! 1. [`item`]: boxes and numbers in 32 bytes a primitive, which all later steps reorder in place.
+//! 2. [`bins`], [`split`], [`binary`]: a binary tree by the binned surface area heuristic, leaves up to eight of a kind.
+//! 3. [`plan`], [`collapse`]: binary nodes become wide nodes and leaves, at the least expected cost.
+//! 4. [`octant`]: children take the slots that make `slot ^ octant` the order of visits.
+//!
+//! The tree is a function of the input alone: how many threads built it leaves no trace.
+
+mod binary;
+mod bins;
+mod collapse;
+mod item;
+mod octant;
+mod plan;
+mod split;
+#[cfg(test)]
+mod tests;
+
+use rayon::prelude::*;
+
+use super::node::{ChildRef, Node8};
+use crate::math::{Aabb, WIDTH};
+use collapse::{Fragment, Source, collapse, moved};
+use item::{GRAIN, Item};
+
+/// Most primitives in a leaf: what one block holds.
+pub const LEAF_SIZE: usize = WIDTH;
+
+/// No tree is deeper, whatever its input; a traversal stack of `7 * MAX_DEPTH + 1` entries is always enough.
+pub const MAX_DEPTH: u32 = 64;
+
+/// Cycles of a node visit and of a leaf block, as measured on one CPU: what the surface area heuristic weighs.
+pub const NODE_CYCLES: f64 = 18.0;
+/// See [`NODE_CYCLES`].
+pub const BLOCK_CYCLES: f64 = 64.0;
+
+/// Values of the kind of a [`ChildRef`].
+pub const KINDS: usize = 8;
+
+/// What the builder knows of a primitive; its number is its place in the input.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BuildPrimitive {
+    /// Box that holds every point where a ray may meet it. **Needs:** not empty, no NaN.
+    pub bounds: Aabb,
+    /// Kind from 1 to 6; a leaf holds one kind.
+    pub kind: u8,
+}
+
+/// One to eight primitives of a kind: a stretch of [`Tree::order`].
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Leaf {
+    /// Kind of all its primitives.
+    pub kind: u8,
+    /// Number of primitives.
+    pub len: u8,
+    /// Where they start in [`Tree::order`].
+    pub first: u32,
+}
+
+/// An 8-wide tree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Tree {
+    /// Depth-first: a node, then for each child node in the order of slots its subtree. The root is first, and is there
+    /// even without primitives.
+    pub nodes: Vec<Node8>,
+    /// Grouped by kind, kinds ascending; within a kind depth-first, and the place in the group is the index that a
+    /// [`ChildRef`] holds.
+    pub leaves: Vec<Leaf>,
+    /// Numbers of the primitives, leaf by leaf, ascending within a leaf.
+    pub order: Vec<u32>,
+    /// Nodes on the longest way from the root, both ends counted; at most [`MAX_DEPTH`].
+    pub max_depth: u32,
+    /// Box of everything; empty without primitives.
+    pub bounds: Aabb,
+}
+
+impl Tree {
+    /// The leaves of a kind, in the order of their numbers.
+    pub fn leaves_of(&self, kind: u8) -> &[Leaf] {
+        let start = self.leaves.partition_point(|leaf| leaf.kind < kind);
+        let len = self.leaves[start..].partition_point(|leaf| leaf.kind == kind);
+        &self.leaves[start..start + len]
+    }
+
+    /// The primitives of a leaf, ascending.
+    pub fn primitives(&self, leaf: &Leaf) -> &[u32] {
+        &self.order[leaf.first as usize..][..usize::from(leaf.len)]
+    }
+
+    /// Moves every reference: nodes by `by[0]`, leaves of kind `k` by `by[k]`, so that trees can share arrays.
+    ///
+    /// **Panics** if an index leaves its 29 bits.
+    pub fn offset(&mut self, by: &[u32; KINDS]) {
+        self.nodes.par_iter_mut().for_each(|node| *node = moved(*node, by));
+    }
+}
+
+/// The tree over some primitives.
+///
+/// **Panics** if there are 2^29 primitives or more, or if a kind is not one of 1 to 6.
+pub fn build(primitives: &[BuildPrimitive]) -> Tree {
+    assert!(primitives.len() < ChildRef::CAPACITY, "too many primitives for one tree");
+    let mut items = items(primitives);
+    let nodes = binary::grow(&mut items);
+    let Some(root) = nodes.first() else { return empty() };
+    let bounds = root.bounds;
+    let plans = plan::plans(&nodes, &items);
+    let source = Source { nodes: &nodes, plans: &plans, items: &items };
+    let Fragment { nodes, leaves, depth } = collapse(source, 0);
+    let leaves = leaves.concat();
+    Tree { nodes, order: order(&items, &leaves), leaves, max_depth: depth, bounds }
+}
+
+fn empty() -> Tree {
+    Tree { nodes: vec![Node8::EMPTY], leaves: vec![], order: vec![], max_depth: 1, bounds: Aabb::EMPTY }
+}
+
+fn items(primitives: &[BuildPrimitive]) -> Vec<Item> {
+    let item = |(number, primitive): (usize, &BuildPrimitive)| {
+        assert!((1..=ChildRef::LAST_KIND).contains(&primitive.kind), "kind {} is no kind", primitive.kind);
+        Item::new(number as u32, primitive)
+    };
+    primitives.par_iter().enumerate().with_min_len(GRAIN).map(item).collect()
+}
+
+/// The numbers in the order of the items, sorted within each leaf.
+fn order(items: &[Item], leaves: &[Leaf]) -> Vec<u32> {
+    let mut order: Vec<u32> = items.par_iter().with_min_len(GRAIN).map(Item::number).collect();
+    for leaf in leaves {
+        order[leaf.first as usize..][..usize::from(leaf.len)].sort_unstable();
+    }
+    order
+}
+
+/// Half the surface area; in `f64`, which holds that of any finite box.
+pub(super) fn half_area(bounds: &Aabb) -> f64 {
+    let [x, y, z] = bounds.size().map(f64::from);
+    x * y + y * z + z * x
+}

@@ -1,0 +1,146 @@
+//! Which binary nodes become wide nodes, which become leaves, and which dissolve into the node above: the choice of
+//! least expected cost.
+//!
+//! **Source:** Ylitie, Karras and Laine, "Efficient Incoherent Ray Traversal on GPUs Through Compressed Wide BVHs", 2017,
+//! section 3.1. Changed: a leaf costs one block however full it is, and holds one kind of primitive.
+
+use super::binary::BinaryNode;
+use super::item::{GRAIN, Item};
+use super::{BLOCK_CYCLES, LEAF_SIZE, NODE_CYCLES, half_area};
+use crate::math::WIDTH;
+
+/// Most roots that a subtree contributes to the node above, whose other child has at least one.
+const ROOTS: usize = WIDTH - 1;
+
+/// No area counts for less than this share of the whole: where all boxes are flat, fewer nodes are still better.
+const LEAST_AREA: f64 = 1e-9;
+
+/// The best ways to stand for one binary subtree, by the number of roots it may contribute to a wide node.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan {
+    /// Least cost with at most `i + 1` roots.
+    cost: [f32; ROOTS],
+    /// For `i + 1` roots: how many of them go to the left child; 0 if one root less is as good. For the single root:
+    /// how many of its eight children come from the left; 0 if it is a leaf.
+    left: [u8; ROOTS],
+    /// The one kind of all primitives below if they fit a leaf, else 0.
+    kind: u8,
+}
+
+impl Plan {
+    const UNKNOWN: Self = Self { cost: [0.0; ROOTS], left: [0; ROOTS], kind: 0 };
+
+    /// True if the subtree is one leaf.
+    pub(super) fn is_leaf(&self) -> bool {
+        self.left[0] == 0
+    }
+
+    fn of_leaf(area: f32, kind: u8) -> Self {
+        Self { cost: [BLOCK_CYCLES as f32 * area; ROOTS], left: [0; ROOTS], kind }
+    }
+
+    fn of_inner(area: f32, len: u32, a: &Self, b: &Self) -> Self {
+        let mut plan = Self::UNKNOWN;
+        let (below, from_left) = share(a, b, WIDTH);
+        (plan.cost[0], plan.left[0]) = (NODE_CYCLES as f32 * area + below, from_left);
+        if a.kind == b.kind && len as usize <= LEAF_SIZE {
+            plan.kind = a.kind;
+        }
+        let block = BLOCK_CYCLES as f32 * area;
+        if plan.kind != 0 && block <= plan.cost[0] {
+            (plan.cost[0], plan.left[0]) = (block, 0);
+        }
+        for i in 1..ROOTS {
+            let (cost, from_left) = share(a, b, i + 1);
+            let better = cost < plan.cost[i - 1];
+            (plan.cost[i], plan.left[i]) = if better { (cost, from_left) } else { (plan.cost[i - 1], 0) };
+        }
+        plan
+    }
+}
+
+/// Least cost of two subtrees that share `roots` roots, and how many of them the first takes.
+#[inline(always)]
+fn share(a: &Plan, b: &Plan, roots: usize) -> (f32, u8) {
+    let mut best = (f32::INFINITY, 1);
+    for from_a in 1..roots {
+        let cost = a.cost[from_a - 1] + b.cost[roots - from_a - 1];
+        best = if cost < best.0 { (cost, from_a as u8) } else { best };
+    }
+    best
+}
+
+/// The plans of all binary nodes.
+pub(super) fn plans(nodes: &[BinaryNode], items: &[Item]) -> Vec<Plan> {
+    let mut plans = vec![Plan::UNKNOWN; nodes.len()];
+    if let Some(root) = nodes.first() {
+        solve(nodes, items, half_area(&root.bounds), &mut plans);
+    }
+    plans
+}
+
+/// Plans of one subtree, children before parents; the halves of large subtrees in parallel.
+fn solve(nodes: &[BinaryNode], items: &[Item], whole: f64, plans: &mut [Plan]) {
+    let right = nodes[0].right as usize;
+    if nodes.len() <= GRAIN || right == 0 {
+        return (0..nodes.len()).rev().for_each(|at| solve_node(nodes, items, whole, plans, at));
+    }
+    let (left_plans, right_plans) = plans[1..].split_at_mut(right - 1);
+    rayon::join(
+        || solve(&nodes[1..right], items, whole, left_plans),
+        || solve(&nodes[right..], items, whole, right_plans),
+    );
+    solve_node(nodes, items, whole, plans, 0);
+}
+
+fn solve_node(nodes: &[BinaryNode], items: &[Item], whole: f64, plans: &mut [Plan], at: usize) {
+    let node = &nodes[at];
+    let area = (half_area(&node.bounds) / whole).max(LEAST_AREA) as f32;
+    plans[at] = if node.right == 0 {
+        Plan::of_leaf(area, items[node.first as usize].kind())
+    } else {
+        Plan::of_inner(area, node.len, &plans[at + 1], &plans[at + node.right as usize])
+    };
+}
+
+/// The binary nodes that become the children of one wide node.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Children {
+    at: [usize; WIDTH],
+    count: usize,
+}
+
+impl Children {
+    /// The children of the wide node over a binary subtree that is no leaf.
+    pub(super) fn of(nodes: &[BinaryNode], plans: &[Plan], root: usize) -> Self {
+        let mut children = Self::default();
+        children.gather_below(nodes, plans, root, WIDTH, plans[root].left[0]);
+        children
+    }
+
+    /// The one child of a root that stands over a lone leaf.
+    pub(super) fn lone(root: usize) -> Self {
+        Self { at: [root; WIDTH], count: 1 }
+    }
+
+    pub(super) fn as_slice(&self) -> &[usize] {
+        &self.at[..self.count]
+    }
+
+    fn gather(&mut self, nodes: &[BinaryNode], plans: &[Plan], at: usize, mut roots: usize) {
+        while roots > 1 && plans[at].left[roots - 1] == 0 {
+            roots -= 1;
+        }
+        if roots > 1 {
+            return self.gather_below(nodes, plans, at, roots, plans[at].left[roots - 1]);
+        }
+        self.at[self.count] = at;
+        self.count += 1;
+    }
+
+    fn gather_below(&mut self, nodes: &[BinaryNode], plans: &[Plan], at: usize, roots: usize, from_left: u8) {
+        let from_left = usize::from(from_left);
+        self.gather(nodes, plans, at + 1, from_left);
+        self.gather(nodes, plans, at + nodes[at].right as usize, roots - from_left);
+    }
+}
