@@ -92,9 +92,8 @@ impl<const BINS: usize> Bins<BINS> {
     fn of_run(items: &[Item], binning: &Binning) -> Self {
         let mut bins = Self { sides: [[Side::EMPTY; BINS]; 3] };
         for item in items {
-            let at = binning.bins::<BINS>(item);
-            for axis in 0..3 {
-                bins.sides[axis][at[axis]].add(Side { bounds: item.bounds, count: 1 });
+            for (sides, bin) in bins.sides.iter_mut().zip(binning.bins::<BINS>(item)) {
+                sides[bin].add(Side { bounds: item.bounds, count: 1 });
             }
         }
         bins
@@ -108,12 +107,10 @@ impl<const BINS: usize> Bins<BINS> {
     }
 
     fn best_on(&self, axis: usize) -> Option<Cut> {
-        let right = self.right_sides(axis);
         let mut left = Side::EMPTY;
         let mut best = Cut { axis, bin: 0, cost: f64::INFINITY, larger_side: u32::MAX };
-        for bin in 1..BINS {
+        for (bin, (right_cost, right_count)) in self.right_sides(axis).into_iter().enumerate().skip(1) {
             left.add(self.sides[axis][bin - 1]);
-            let (right_cost, right_count) = right[bin];
             if left.count != 0 && right_count != 0 {
                 let cost = left.cost() + right_cost;
                 best = best.better(Cut { axis, bin, cost, larger_side: left.count.max(right_count) });

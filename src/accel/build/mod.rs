@@ -1,9 +1,9 @@
 //! From boxes of primitives to the 8-wide tree; what the primitives are does not matter here.
 //!
-//! 1. [`item`]: boxes and numbers in 32 bytes a primitive, which all later steps reorder in place.
-//! 2. [`bins`], [`split`], [`binary`]: a binary tree by the binned surface area heuristic, leaves up to eight of a kind.
-//! 3. [`plan`], [`collapse`]: binary nodes become wide nodes and leaves, at the least expected cost.
-//! 4. [`octant`]: children take the slots that make `slot ^ octant` the order of visits.
+//! 1. `item`: boxes and numbers in 32 bytes a primitive, which all later steps reorder in place.
+//! 2. `bins`, `split`, `binary`: a binary tree by the binned surface area heuristic, leaves up to eight of a kind.
+//! 3. `plan`, `collapse`: binary nodes become wide nodes and leaves, at the least expected cost.
+//! 4. `octant`: children take the slots that make `slot ^ octant` the order of visits.
 //!
 //! The tree is a function of the input alone: how many threads built it leaves no trace.
 

@@ -61,3 +61,57 @@ fn split_off_kind(items: &mut [Item]) -> usize {
     let least = items.iter().map(Item::kind).min().unwrap_or_default();
     partition(items, &|item| item.kind() == least)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::BuildPrimitive;
+    use super::*;
+    use crate::math::Aabb;
+
+    /// A hundred points, each ten times as far out as the one before: any cut by area takes a few from the far end.
+    fn outward(kinds: usize) -> Vec<Item> {
+        let primitive = |i: usize| {
+            let at = [10_f32.powi(i as i32 % 30); 3];
+            BuildPrimitive { bounds: Aabb { min: at, max: at }, kind: 1 + (i % kinds) as u8 }
+        };
+        (0..100).map(|i| Item::new(i as u32, &primitive(i))).collect()
+    }
+
+    /// Splits above the deepest leaf.
+    fn depth(items: &mut [Item], above: u32) -> u32 {
+        let Some(middle) = split(items, &Extent::of(items), above) else { return above };
+        assert!(0 < middle && middle < items.len());
+        let (left, right) = items.split_at_mut(middle);
+        depth(left, above + 1).max(depth(right, above + 1))
+    }
+
+    #[test]
+    fn near_the_greatest_depth_only_halving_is_left() {
+        let mut items = outward(1);
+        let start = MAX_DEPTH - halvings(items.len());
+        assert_eq!(split(&mut items, &Extent::of(&outward(1)), start), Some(56));
+        for kinds in 1..=6 {
+            for start in 0..=start {
+                assert!(depth(&mut outward(kinds), start) <= MAX_DEPTH);
+            }
+        }
+    }
+
+    #[test]
+    fn halves_are_ordered_and_ties_go_by_number() {
+        let mut items = outward(1);
+        let extent = Extent::of(&items);
+        let middle = halve(&mut items, &extent);
+        let key = |item: &Item| (item.centroid().to_array()[0], item.number());
+        let last = items[..middle].iter().map(key).max_by(|a, b| a.partial_cmp(b).unwrap());
+        assert!(items[middle..].iter().all(|item| Some(key(item)) > last));
+    }
+
+    #[test]
+    fn the_least_kind_is_split_off_first() {
+        let mut items = outward(3)[..8].to_vec();
+        let middle = split(&mut items, &Extent::of(&outward(3)[..8]), 0).unwrap();
+        assert_eq!(middle, 3);
+        assert!(items[..middle].iter().all(|item| item.kind() == 1));
+    }
+}

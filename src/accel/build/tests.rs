@@ -71,7 +71,7 @@ fn coincident_primitives_fill_their_leaves() {
 fn points_on_a_line_have_no_area_and_still_spread() {
     let primitives: Vec<_> = (0..50_000).map(|i| cube([i as f32, 0.0, 0.0], 0.0, 1)).collect();
     let (tree, stats) = sound(&primitives);
-    assert!(tree.max_depth <= 10 && stats.mean_primitives >= 4.0, "{tree:?}", tree = tree.max_depth);
+    assert!(tree.max_depth <= 10 && stats.mean_primitives >= 4.0, "{stats:?}, depth {}", tree.max_depth);
 }
 
 #[test]
