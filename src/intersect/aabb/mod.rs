@@ -9,6 +9,7 @@
 //! - `min` and `max` take the second operand on NaN, so a slab that overflowed is ignored, not fatal.
 
 mod cull;
+pub mod oracle;
 mod own;
 
 pub use cull::CullRay;

@@ -1,0 +1,1 @@
+//! Nothing that culls may lose what decides.
