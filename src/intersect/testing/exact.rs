@@ -7,7 +7,7 @@ use dashu::integer::IBig;
 use dashu::rational::Relaxed;
 
 use crate::intersect::RayLanes;
-use crate::math::{Lane, Real, Vec3};
+use crate::math::{Real, Vec3};
 
 /// Coordinates are multiples of 2^-300: all `f32`, and `f64` down to 1e-74.
 const UNIT_EXPONENT: i32 = 300;
@@ -24,7 +24,10 @@ fn lift(x: f64) -> IBig {
     let magnitude = if shift >= 0 {
         IBig::from(mantissa) << shift as usize
     } else {
-        assert!(mantissa.trailing_zeros() as i32 >= -shift || mantissa == 0, "{x} is no multiple of the unit");
+        assert!(
+            mantissa.trailing_zeros() as i32 >= -shift || mantissa == 0,
+            "{x} is no multiple of the unit"
+        );
         IBig::from(mantissa) >> (-shift) as usize
     };
     if x < 0.0 { -magnitude } else { magnitude }
@@ -132,15 +135,14 @@ pub(crate) fn cylinder<R: Real>(ray: &RayLanes<R>, ends: [Vec3<R>; 2], radius: f
         return true;
     }
     // Inside at neither cap: then the nearest approach, at t = -b / a, must lie between them.
-    let height = |p: &IBig| (p * &side.a + &side.b * &along_d) * if along_d > zero { 1 } else { -1 };
+    let height = |p: &IBig| p * &side.a + &side.b * &along_d;
     let (h0, h1) = (height(&p0), height(&p1));
     side.discriminant() >= zero && ((h0 <= zero && h1 >= zero) || (h0 >= zero && h1 <= zero))
 }
 
-/// To a multiple of the unit, for numbers that a margin made too fine.
+/// Numbers that a margin made finer than the unit.
 fn rounded(x: f64) -> f64 {
-    let unit = 2f64.powi(-60);
-    if x.abs() < 1e-70 { 0.0 } else if x.abs() < 1.0 { x } else { (x / unit).round() * unit }
+    if x.abs() < 1e-70 { 0.0 } else { x }
 }
 
 #[test]

@@ -52,8 +52,7 @@ impl Kernel for Plane {
 struct Own;
 impl Kernel for Own {
     fn run<L: Lane>(ray: &RayLanes<L>, p: [Vec3<L>; 3]) -> (L::Mask, [L; 3]) {
-        let (first, last) =
-            OwnBox::new(ray.origin, ray.direction).interval(p[0].min(p[1]), p[0].max(p[1]));
+        let (first, last) = OwnBox::new(ray.origin, ray.direction).interval(p[0].min(p[1]), p[0].max(p[1]));
         (L::Mask::splat(true), [first, last, last])
     }
 }

@@ -2,10 +2,8 @@
 
 use std::collections::HashMap;
 
-use wide::f32x8;
-
 use super::dice::Dice;
-use crate::math::{Transform, Vec3};
+use crate::math::{Lane, Real, Transform, Vec3};
 
 /// A closed surface: every edge belongs to two triangles.
 pub(crate) struct Mesh {
@@ -89,16 +87,16 @@ impl Mesh {
         (points, Vec3::splat(center), size)
     }
 
-    /// Eight triangles a packet, padded with NaN.
-    pub(crate) fn packets(&self, points: &[[f32; 3]]) -> Vec<[Vec3<f32x8>; 3]> {
+    /// As many triangles a packet as there are lanes, padded with NaN.
+    pub(crate) fn packets<L: Lane>(&self, points: &[[f32; 3]]) -> Vec<[Vec3<L>; 3]> {
         let corner = |t: Option<&[usize; 3]>, k: usize| t.map_or([f32::NAN; 3], |t| points[t[k]]);
         let pack = |ts: &[[usize; 3]]| {
             std::array::from_fn(|k| {
-                let column = |axis: usize| f32x8::new(std::array::from_fn(|i| corner(ts.get(i), k)[axis]));
+                let column = |axis: usize| L::from_fn(|i| L::Scalar::from_f32(corner(ts.get(i), k)[axis]));
                 Vec3::new(column(0), column(1), column(2))
             })
         };
-        self.triangles.chunks(8).map(pack).collect()
+        self.triangles.chunks(L::WIDTH).map(pack).collect()
     }
 }
 
