@@ -9,6 +9,8 @@ pub mod cylinder;
 pub mod plane;
 mod ray;
 pub mod sphere;
+#[cfg(test)]
+mod testing;
 mod tier;
 pub mod triangle;
 

@@ -24,9 +24,10 @@ impl<L: Lane> CullRay<L> {
     #[inline(always)]
     pub fn new(origin: Vec3<L>, direction: Vec3<L>, scale: L) -> Self {
         let reciprocal = safe_reciprocal(direction);
-        let roundoffs = L::constant(PAD_ROUNDOFFS * f64::from(f32::EPSILON) / 2.0);
-        let pad = (origin.abs().max_component() + scale) * roundoffs;
-        let width = reciprocal.abs() * pad;
+        let half_roundoffs = L::constant(PAD_ROUNDOFFS * f64::from(f32::EPSILON) / 4.0);
+        let size = origin.abs().max_component() + scale;
+        // Twice the size first: where any product of the slab could overflow, the width does, and that slab culls nothing.
+        let width = reciprocal.abs() * (size + size) * half_roundoffs;
         let start = origin.scale(reciprocal);
         Self { reciprocal, near_offset: -(start + width), far_offset: width - start }
     }

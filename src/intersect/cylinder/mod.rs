@@ -48,12 +48,18 @@ impl<L: Lane> Interval<L> {
 /// The first point of each cylinder beyond `t_min`, in the number type of the lanes.
 #[inline(always)]
 pub fn solve<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> {
+    solve_rounded(ray, c, |t| t)
+}
+
+/// `round` is what becomes of `t` later: the end beyond `t_min` is chosen by the `t` that the caller will see.
+#[inline(always)]
+fn solve_rounded<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>, round: impl Fn(L) -> L) -> LaneHit<L> {
     let axis = c.to - c.from;
     let f = ray.origin - c.from;
     let (axis2, along_f, along_d) = (axis.length_squared(), f.dot(axis), ray.direction.dot(axis));
     let side = inside_side(f - axis * (along_f / axis2), ray.direction - axis * (along_d / axis2), c.radius);
     let slab = between_caps(along_f, along_d, axis2);
-    let (mask, t, on_side) = first_beyond(ray.t_min, side, slab, c.capped);
+    let (mask, t, on_side) = first_beyond(ray.t_min, side, slab, c.capped, round);
     let height = (along_f + t * along_d) / axis2;
     let (zero, half, one) = (L::zero(), L::constant(0.5), L::one());
     let cap = L::select(height.lt(half), one, one + one);
@@ -69,7 +75,8 @@ fn inside_side<L: Lane>(f: Vec3<L>, d: Vec3<L>, radius: L) -> Interval<L> {
     let q = -(b + (a * discriminant).sqrt().with_sign_of(b));
     let c = f.length_squared() - radius * radius;
     let (t0, t1) = (q / a, c / q);
-    let crossing = Interval { first: t0.min(t1), last: t0.max(t1) };
+    // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
+    let crossing = Interval { first: t1.min(t0), last: t1.max(t0) };
     let meets =
         Interval::select(discriminant.ge(L::zero()), crossing, Interval::all_where(L::Mask::splat(false)));
     let parallel = Interval::all_where(c.le(L::zero()));
@@ -93,14 +100,17 @@ fn first_beyond<L: Lane>(
     side: Interval<L>,
     slab: Interval<L>,
     capped: L::Mask,
+    round: impl Fn(L) -> L,
 ) -> (L::Mask, L, L::Mask) {
     let (first, last) = (side.first.max(slab.first), side.last.min(slab.last));
+    let inside = first.le(last);
+    let (first, last) = (round(first), round(last));
     let enter_on_side = side.first.ge(slab.first);
     let leave_on_side = side.last.le(slab.last);
     // An open cylinder has no surface where the ray enters or leaves through a cap.
     let enters = first.gt(t_min) & (capped | enter_on_side);
     let leaves = last.gt(t_min) & (capped | leave_on_side);
-    let mask = first.le(last) & (enters | leaves);
+    let mask = inside & (enters | leaves);
     let on_side = (enters & enter_on_side) | (!enters & leave_on_side);
     (mask, L::select(enters, first, last), on_side)
 }
@@ -118,7 +128,7 @@ pub fn filter_and_solve<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> 
         radius: c.radius.widen(),
         capped: L::widen_mask(c.capped),
     };
-    let mut hit = LaneHit::narrow(solve(&ray.widen(), &wide));
+    let mut hit = LaneHit::narrow(solve_rounded(&ray.widen(), &wide, |t| L::narrow(t).widen()));
     hit.mask = hit.mask & candidates;
     hit
 }
@@ -131,11 +141,12 @@ fn may_hit<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> L::Mask {
     let (axis, f, d) = (c.to - c.from, ray.origin - c.from, ray.direction);
     let n = d.cross(axis);
     let sum = |v: Vec3<L>| v.x.abs() + v.y.abs() + v.z.abs();
-    let slack = sum(f) * sum(d) * sum(axis) * L::constant(f64::from(gamma(16)));
+    let size = sum(d) * sum(axis);
+    let slack = sum(f) * size * L::constant(f64::from(gamma(16)));
     let reach = c.radius * sum(n) + slack;
     let misses = f.dot(n).abs().gt(reach);
-    // Products of tiny numbers that lost their digits to underflow decide nothing.
-    !(misses & slack.gt(L::constant(f64::from(f32::MIN_POSITIVE))))
+    // Products of tiny numbers that lost their digits to underflow decide nothing; 64 keeps that loss below a roundoff.
+    !(misses & slack.min(size).gt(L::constant(64.0 * f64::from(f32::MIN_POSITIVE))))
 }
 
 /// The box of a cylinder, rounded outwards: along each axis a cap reaches `r sqrt(1 - a^2)` with `a` the share of the

@@ -32,6 +32,12 @@ impl<L: Lane> Lanes<L> {
 /// The first point of each sphere beyond `t_min`, in the number type of the lanes.
 #[inline(always)]
 pub fn solve<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
+    solve_rounded(ray, s, |t| t)
+}
+
+/// `round` is what becomes of `t` later: the root beyond `t_min` is chosen by the `t` that the caller will see.
+#[inline(always)]
+fn solve_rounded<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>, round: impl Fn(L) -> L) -> LaneHit<L> {
     let (f, d) = (ray.origin - s.center, ray.direction);
     let (a, b) = (d.length_squared(), f.dot(d));
     let across = f - d * (b / a);
@@ -40,7 +46,8 @@ pub fn solve<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
     let q = -(b + (a * discriminant).sqrt().with_sign_of(b));
     let c = f.length_squared() - s.radius * s.radius;
     let (near, far) = (q / a, c / q);
-    let (near, far) = (near.min(far), near.max(far));
+    // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
+    let (near, far) = (round(far.min(near)), round(far.max(near)));
     let t = L::select(near.gt(ray.t_min), near, far);
     LaneHit { mask, t, u: L::zero(), v: L::zero() }
 }
@@ -52,7 +59,7 @@ pub fn filter_and_solve<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> 
     if !candidates.any() {
         return LaneHit::none();
     }
-    let mut hit = LaneHit::narrow(solve(&ray.widen(), &s.widen()));
+    let mut hit = LaneHit::narrow(solve_rounded(&ray.widen(), &s.widen(), |t| L::narrow(t).widen()));
     hit.mask = hit.mask & candidates;
     hit
 }

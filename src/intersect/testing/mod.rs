@@ -1,0 +1,39 @@
+//! What the tests of the kernels share: exact arithmetic, one battery for all widths, hard rays, closed meshes.
+
+mod conservative;
+pub(crate) mod dice;
+pub(crate) mod exact;
+mod lanes;
+pub(crate) mod meshes;
+
+use super::{LaneHit, RayLanes};
+use crate::math::{Real, Vec3};
+
+/// A ray without bounds, so that a test sees every meeting of the line.
+pub(crate) fn line<R: Real>(origin: [R; 3], direction: [R; 3]) -> RayLanes<R> {
+    let (t_min, t_max) = (R::constant(f64::NEG_INFINITY), R::constant(f64::INFINITY));
+    RayLanes { origin: Vec3::splat(origin), direction: Vec3::splat(direction), t_min, t_max }
+}
+
+/// A ray that starts at its origin.
+pub(crate) fn ray<R: Real>(origin: [R; 3], direction: [R; 3]) -> RayLanes<R> {
+    RayLanes { t_min: R::constant(0.0), ..line(origin, direction) }
+}
+
+/// `t` of a scalar hit, if it is one.
+pub(crate) fn t_of<R: Real>(hit: LaneHit<R>) -> Option<R> {
+    hit.mask.then_some(hit.t)
+}
+
+/// How many representable `f32` lie between the two, or half of one for less than that.
+pub(crate) fn ulps(got: f32, exact: f64) -> f64 {
+    let nearest = exact as f32;
+    let spacing = f64::from(nearest.abs().next_up()) - f64::from(nearest.abs());
+    (f64::from(got) - exact).abs() / spacing
+}
+
+/// The value below which the given share of the numbers lies.
+pub(crate) fn percentile(values: &mut [f64], share: f64) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values[((values.len() - 1) as f64 * share) as usize]
+}
