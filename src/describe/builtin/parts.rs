@@ -19,7 +19,6 @@ pub(super) fn metal(name: &str, tint: [f64; 3]) -> Material {
     Material { tint: Some(Rgb(tint)), attenuation: 0.9, ..Material::new(name, MaterialKind::Metal) }
 }
 
-/// `ior` is that of the inside over that of the outside.
 pub(super) fn dielectric(name: &str, ior: f64) -> Material {
     Material { ior, ..Material::new(name, MaterialKind::Dielectric) }
 }
