@@ -39,7 +39,8 @@ pub struct Material {
     /// Strength of secondary rays. Default 1.
     #[serde(default = "default_one")]
     pub attenuation: f64,
-    /// Index of refraction, dielectric only. Default 1.5.
+    /// Index of refraction of the body, dielectric only. Default 1.5 (glass); outside of all bodies it is 1.
+    /// In nested bodies the innermost counts: a bubble in glass is a body of its own with 1.
     #[serde(default = "default_ior")]
     pub ior: f64,
     /// Diffuse only: also scatter one ray with the cosine law. Default false.

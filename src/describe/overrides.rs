@@ -114,10 +114,10 @@ impl<'a> Writer<'_, 'a> {
                 self.write(element.get_mut(), depth + 1, value)
             }
             other => Err(SetError::new(format!(
-                "`{}` is a {}: it has no `{}` inside",
+                "`{}` has no `{}` inside: it is of type {}",
                 self.parts[..depth].join("."),
-                other.type_str(),
-                self.parts[depth]
+                self.parts[depth],
+                other.type_str()
             ))),
         }
     }

@@ -120,4 +120,6 @@ impl Mesh {
 }
 
 #[cfg(test)]
+mod garbage;
+#[cfg(test)]
 mod tests;

@@ -17,9 +17,11 @@ pub fn terrain(triangles: u64, seed: u64, smooth: bool) -> Mesh {
     let cells = (triangles.max(2) / 2) as f64;
     let columns = cells.sqrt().round().max(1.0) as u32;
     let rows = (cells / f64::from(columns)).round().max(1.0) as u32;
-    let mut mesh = Mesh::default();
-    mesh.positions = positions(columns, rows, seed);
-    mesh.triangles = triangulate(columns, rows);
+    let mut mesh = Mesh {
+        positions: positions(columns, rows, seed),
+        triangles: triangulate(columns, rows),
+        ..Mesh::default()
+    };
     mesh.report.triangles_read = mesh.triangles.len();
     if smooth {
         make_smooth(&mut mesh);

@@ -1,13 +1,11 @@
 //! `glass`: dielectrics inside dielectrics.
 //!
-//! `ior` is that of the inside over that of the outside, so what lies in glass is written relative to glass:
-//! air `1 / 1.5`, water `1.33 / 1.5`. Surfaces of two bodies never coincide: a film of the outer body parts them.
+//! Bodies nest up to three deep (a drop in a bubble in a ball), air inside glass being a body of its own. Surfaces of
+//! two bodies never coincide: a film of the outer one parts them.
 
 use super::super::{Background, Camera, Mesh, SceneDescription, Transform};
 use super::parts::{cylinder, dielectric, diffuse, glossy, point_lights, sphere, upright};
 
-const GLASS: f64 = 1.5;
-const WATER: f64 = 1.33;
 /// Thickness of the film between two bodies.
 const FILM: f64 = 0.004;
 
@@ -25,11 +23,9 @@ pub(super) fn scene() -> SceneDescription {
         diffuse("dark square", [0.16, 0.17, 0.20]),
         glossy("red", [0.80, 0.12, 0.10], 0.4),
         glossy("yellow", [0.90, 0.68, 0.10], 0.4),
-        dielectric("glass", GLASS),
-        dielectric("air in glass", 1.0 / GLASS),
-        dielectric("water in glass", WATER / GLASS),
-        dielectric("air in water", 1.0 / WATER),
-        dielectric("water", WATER),
+        dielectric("glass", 1.5),
+        dielectric("water", 1.33),
+        dielectric("air", 1.0),
     ];
     add_floor(&mut scene);
     add_tumbler(&mut scene, [-1.35, 0.0, 0.3]);
@@ -41,17 +37,17 @@ pub(super) fn scene() -> SceneDescription {
 fn add_tumbler(scene: &mut SceneDescription, foot: [f64; 3]) {
     let at = |y: f64| [foot[0], foot[1] + y, foot[2]];
     scene.cylinder.push(cylinder("glass", at(0.01), at(2.4), 1.0));
-    scene.cylinder.push(cylinder("water in glass", at(0.2), at(1.4), 0.9));
-    scene.cylinder.push(cylinder("air in glass", at(1.4 + FILM), at(2.3), 0.9));
-    scene.sphere.push(sphere("air in water", [foot[0] - 0.3, foot[1] + 0.9, foot[2] + 0.3], 0.16));
-    scene.sphere.push(sphere("air in water", [foot[0] + 0.25, foot[1] + 1.15, foot[2] + 0.4], 0.09));
+    scene.cylinder.push(cylinder("water", at(0.2), at(1.4), 0.9));
+    scene.cylinder.push(cylinder("air", at(1.4 + FILM), at(2.3), 0.9));
+    scene.sphere.push(sphere("air", [foot[0] - 0.3, foot[1] + 0.9, foot[2] + 0.3], 0.16));
+    scene.sphere.push(sphere("air", [foot[0] + 0.25, foot[1] + 1.15, foot[2] + 0.4], 0.09));
     scene.sphere.push(sphere("red", [foot[0] + 0.2, foot[1] + 0.52, foot[2] - 0.1], 0.3));
 }
 
 fn add_balls(scene: &mut SceneDescription) {
     let bubble_ball = [1.25, 0.95, -0.3];
     scene.sphere.push(sphere("glass", bubble_ball, 0.94));
-    scene.sphere.push(sphere("air in glass", bubble_ball, 0.5));
+    scene.sphere.push(sphere("air", bubble_ball, 0.5));
     // A drop of water that floats in the bubble.
     scene.sphere.push(sphere("water", bubble_ball, 0.22));
     scene.sphere.push(sphere("glass", [0.15, 0.42, 1.9], 0.41));

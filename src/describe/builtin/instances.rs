@@ -1,9 +1,7 @@
 //! `instances`: three groups and a mesh, seen hundreds of times: turned, stretched, mirrored.
 
 use super::super::{Background, Camera, Group, Instance, Mesh, Plane, SceneDescription, Transform};
-use super::parts::{
-    cylinder, dielectric, diffuse, glossy, metal, point_lights, quad, sphere, unit_hash, upright,
-};
+use super::parts::{cylinder, dielectric, diffuse, glossy, metal, quad, sphere, suns, unit_hash, upright};
 use crate::describe::transform::sin_cos_deg;
 
 const ROWS: u32 = 20;
@@ -11,12 +9,12 @@ const COLUMNS: u32 = 20;
 const SPACING: f64 = 1.5;
 
 pub(super) fn scene() -> SceneDescription {
-    let camera = Camera::perspective([3.0, 8.5, 21.0], [0.0, 0.2, 2.5], 40.0);
+    let camera = Camera::perspective([2.5, 6.2, 19.0], [0.0, 2.0, 4.0], 38.0);
     let mut scene = SceneDescription::new(camera);
     scene.background = Background::gradient([0.82, 0.80, 0.76], [0.30, 0.46, 0.70]);
-    scene.light = point_lights(&[
-        ([-14.0, 20.0, 16.0], [1.0, 0.95, 0.86], 620.0),
-        ([18.0, 12.0, 6.0], [0.72, 0.84, 1.0], 180.0),
+    scene.light = suns(&[
+        ([0.58, -0.70, -0.45], [1.0, 0.94, 0.84], 0.95),
+        ([-0.75, -0.50, 0.10], [0.70, 0.82, 1.0], 0.25),
     ]);
     scene.material = vec![
         diffuse("ground", [0.50, 0.52, 0.44]),

@@ -1,7 +1,8 @@
 //! Short ways to write the parts of a built-in scene.
 
 use super::super::{
-    Cylinder, Lights, Material, MaterialKind, PointLight, Quad, Rgb, Sphere, Transform, Triangle,
+    Cylinder, DirectionalLight, Lights, Material, MaterialKind, PointLight, Quad, Rgb, Sphere, Transform,
+    Triangle,
 };
 
 pub(super) fn diffuse(name: &str, kd: [f64; 3]) -> Material {
@@ -18,7 +19,6 @@ pub(super) fn metal(name: &str, tint: [f64; 3]) -> Material {
     Material { tint: Some(Rgb(tint)), attenuation: 0.9, ..Material::new(name, MaterialKind::Metal) }
 }
 
-/// `ior` is that of the inside over that of the outside.
 pub(super) fn dielectric(name: &str, ior: f64) -> Material {
     Material { ior, ..Material::new(name, MaterialKind::Dielectric) }
 }
@@ -59,6 +59,12 @@ pub(super) fn quad(material: &str, origin: [f64; 3], edge_u: [f64; 3], edge_v: [
 pub(super) fn point_lights(lights: &[([f64; 3], [f64; 3], f64)]) -> Lights {
     let point = |&(position, color, intensity)| PointLight { position, color: Rgb(color), intensity };
     Lights { point: lights.iter().map(point).collect(), ..Lights::default() }
+}
+
+/// Directional lights, each by direction, colour and intensity.
+pub(super) fn suns(lights: &[([f64; 3], [f64; 3], f64)]) -> Lights {
+    let sun = |&(direction, color, intensity)| DirectionalLight { direction, color: Rgb(color), intensity };
+    Lights { directional: lights.iter().map(sun).collect(), ..Lights::default() }
 }
 
 /// A number from 0 to below 1 that depends only on its two arguments: the same on every machine.

@@ -1,7 +1,7 @@
 //! `spheres`: 10,000 spheres in a sunflower spiral, every tenth of them on a column.
 
 use super::super::{Background, Camera, Material, Plane, SceneDescription};
-use super::parts::{dielectric, diffuse, glossy, metal, point_lights, sphere, unit_hash, upright};
+use super::parts::{dielectric, diffuse, glossy, metal, sphere, suns, unit_hash, upright};
 use crate::describe::transform::sin_cos_deg;
 
 const COUNT: u32 = 10_000;
@@ -13,11 +13,11 @@ const SPACING: f64 = 0.5;
 const GOLDEN_ANGLE_DEG: f64 = 137.507_764_050_037_85;
 
 pub(super) fn scene() -> SceneDescription {
-    let mut scene = SceneDescription::new(Camera::perspective([0.0, 21.0, 52.0], [0.0, 0.5, 4.0], 40.0));
+    let mut scene = SceneDescription::new(Camera::perspective([0.0, 11.5, 33.0], [0.0, 3.0, 6.0], 42.0));
     scene.background = Background::gradient([0.78, 0.74, 0.70], [0.22, 0.38, 0.66]);
-    scene.light = point_lights(&[
-        ([-45.0, 60.0, 50.0], [1.0, 0.94, 0.84], 6500.0),
-        ([60.0, 40.0, 10.0], [0.70, 0.82, 1.0], 2000.0),
+    scene.light = suns(&[
+        ([0.62, -0.66, -0.42], [1.0, 0.93, 0.82], 0.95),
+        ([-0.70, -0.55, 0.15], [0.70, 0.82, 1.0], 0.28),
     ]);
     scene.material = materials();
     let normal = [0.0, 1.0, 0.0];
@@ -36,7 +36,7 @@ fn add_sphere(scene: &mut SceneDescription, number: u32) {
     if number.is_multiple_of(EVERY) {
         // Columns grow towards the middle like a hill.
         base = (1.0 + 6.0 / (1.0 + (distance / 14.0).powi(2))) * (0.4 + 0.6 * unit_hash(number, 1));
-        let column = upright("column", [x, 0.5 * base, z], 0.5 * radius, 0.5 * base);
+        let column = upright("column", [x, 0.5 * base, z], 0.55 * radius, 0.5 * base);
         scene.cylinder.push(column);
     }
     scene.sphere.push(sphere(material_of(number, distance), [x, base + radius, z], radius));

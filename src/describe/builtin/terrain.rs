@@ -1,10 +1,7 @@
 //! `terrain:N`: hills of about N triangles under an evening sun.
 
-use super::super::{
-    Background, Camera, DescribeError, DirectionalLight, Mesh, Procedural, ProceduralKind, Rgb,
-    SceneDescription,
-};
-use super::parts::diffuse;
+use super::super::{Background, Camera, DescribeError, Mesh, Procedural, ProceduralKind, SceneDescription};
+use super::parts::{diffuse, suns};
 
 const DEFAULT_TRIANGLES: u64 = 1_000_000;
 const MOST_TRIANGLES: u64 = 200_000_000;
@@ -29,11 +26,8 @@ fn count(number: &str) -> Option<u64> {
 fn with_triangles(triangles: u64) -> SceneDescription {
     let mut scene = SceneDescription::new(Camera::perspective([0.25, 0.62, 1.35], [0.0, 0.12, 0.0], 44.0));
     scene.background = Background::gradient([0.86, 0.76, 0.66], [0.24, 0.42, 0.74]);
-    let sun = |direction, color, intensity| DirectionalLight { direction, color: Rgb(color), intensity };
-    scene.light.directional = vec![
-        sun([-0.8, -0.55, -0.35], [1.0, 0.86, 0.66], 1.1),
-        sun([0.5, -0.9, 0.2], [0.60, 0.74, 1.0], 0.18),
-    ];
+    scene.light =
+        suns(&[([-0.8, -0.55, -0.35], [1.0, 0.86, 0.66], 1.1), ([0.5, -0.9, 0.2], [0.60, 0.74, 1.0], 0.18)]);
     scene.material = vec![diffuse("rock", [0.56, 0.50, 0.42])];
     let terrain = Mesh::procedural(Procedural { kind: ProceduralKind::Terrain, triangles, seed: 0 });
     scene.mesh.push(Mesh { material: Some("rock".into()), ..terrain });

@@ -89,7 +89,7 @@ fn wrong_sets_say_so() {
         ("quad.0.origin=2", "the scene has no `quad`"),
         ("sphere.0.radius=0", "--set sphere.0.radius=0: `radius` must be above 0"),
         ("sphere.0.radius=big", "--set sphere.0.radius=big: invalid type: string \"big\""),
-        ("sphere.0.radius.x=1", "is a integer"),
+        ("sphere.0.radius.x=1", "`sphere.0.radius` has no `x` inside: it is of type integer"),
         ("sphere.0.material=glas", "--set sphere.0.material=glas: there is no material named `glas`"),
         ("fov_deg", "needs the form key=value"),
         ("a..b=1", "is not a key"),
@@ -116,4 +116,28 @@ fn files_give_their_folder_and_their_name() {
     std::fs::write(&path, b"[camera]\n# \xff").unwrap();
     assert!(read(&path).unwrap_err().to_string().contains("byte 11 is not UTF-8"));
     assert!(matches!(read("no/such.toml".as_ref()), Err(DescribeError::Read { .. })));
+}
+
+#[test]
+fn broken_scenes_never_panic() {
+    let text = super::super::builtin("seed").unwrap().unwrap().to_toml();
+    let pieces = ["nan", "[[", "]]", "=", "\"", "{", "}", "-1", "0", "1e999", "[sphere]", "\n", "ä"];
+    let mut state = 7u64;
+    let mut below = |limit: usize| {
+        state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (state >> 33) as usize % limit
+    };
+    for _ in 0..2000 {
+        let mut broken = text.clone();
+        let at = below(broken.len());
+        let until = (at + below(30)).min(broken.len());
+        broken.replace_range(at..until, pieces[below(pieces.len())]);
+        let set =
+            format!("{}={}", ["sphere.0.radius", "a", "material.red.kd", "."][below(4)], pieces[below(13)]);
+        for sets in [vec![], vec![set]] {
+            if let Err(error) = parse_with(&broken, "s.toml", &sets) {
+                assert!(error.to_string().contains(": "));
+            }
+        }
+    }
 }
