@@ -5,7 +5,7 @@
 
 use super::Accel;
 use super::block::PrimitivesByRay;
-use super::leaf::{PreparedRays, limit_f32, t_min_f32, visit_leaf};
+use super::leaf::{PreparedRays, visit_leaf};
 use super::node::{ChildRef, Node8};
 use super::query::Query;
 use crate::intersect::Tier;
@@ -15,13 +15,13 @@ use wide::f32x8;
 
 /// A child to visit, and where the ray enters it.
 #[derive(Clone, Copy, Debug)]
-pub struct Entry {
+pub(super) struct Entry {
     near: f32,
     child: ChildRef,
 }
 
 /// Puts everything below `root` that the ray may hit to the query. **Needs:** all lanes of `rays` equal.
-pub fn traverse<T: Tier, Q: Query<T::Wide>>(
+pub(super) fn traverse<T: Tier, Q: Query<T::Wide>>(
     accel: &Accel,
     root: u32,
     rays: &PreparedRays<T>,
@@ -29,12 +29,12 @@ pub fn traverse<T: Tier, Q: Query<T::Wide>>(
     stack: &mut Vec<Entry>,
 ) {
     let base = stack.len();
-    let t_min = t_min_f32(rays.ray.t_min);
+    let t_min = T::below_f32(rays.ray.t_min);
     let octant = rays.cull.backward().iter().enumerate().map(|(k, m)| (m.bits() as usize & 1) << k).sum();
     stack.push(Entry { near: f32::NEG_INFINITY, child: ChildRef::node(root) });
     while stack.len() > base && !query.is_done() {
         let Some(entry) = stack.pop() else { break };
-        let limit = limit_f32(query.limit());
+        let limit = T::above_f32(query.limit());
         if !(entry.near <= Lane::get(limit, 0)) {
             continue;
         }

@@ -75,6 +75,13 @@ pub trait Tier: sealed::Sealed + Copy + Default + Send + Sync + 'static {
     type Curved: Curved;
     /// The name of the tier.
     const NAME: TierName;
+
+    /// The nearest `f32` lanes: boxes are culled in `f32` in every tier.
+    fn nearest_f32(x: Self::Wide) -> f32x8;
+    /// `f32` lanes not below.
+    fn above_f32(x: Self::Wide) -> f32x8;
+    /// `f32` lanes not above.
+    fn below_f32(x: Self::Wide) -> f32x8;
 }
 
 /// `f32` throughout, fused and approximate operations where they pay; may leak at shared edges.
@@ -90,7 +97,7 @@ pub struct Watertight;
 pub struct Exact;
 
 macro_rules! tier {
-    ($tier:ident, $real:ty, $wide:ty, $triangle:ty, $curved:ty) => {
+    ($tier:ident, $real:ty, $wide:ty, $triangle:ty, $curved:ty, $nearest:expr, $above:expr, $below:expr) => {
         impl sealed::Sealed for $tier {}
         impl Tier for $tier {
             type Real = $real;
@@ -98,12 +105,41 @@ macro_rules! tier {
             type Triangle = $triangle;
             type Curved = $curved;
             const NAME: TierName = TierName::$tier;
+
+            #[inline(always)]
+            fn nearest_f32(x: $wide) -> f32x8 {
+                $nearest(x)
+            }
+            #[inline(always)]
+            fn above_f32(x: $wide) -> f32x8 {
+                $above(x)
+            }
+            #[inline(always)]
+            fn below_f32(x: $wide) -> f32x8 {
+                $below(x)
+            }
         }
     };
 }
-tier!(Fast, f32, f32x8, MollerTrumbore, Direct);
-tier!(Watertight, f32, f32x8, Woop, Filtered);
-tier!(Exact, f64, f64x8, Woop, Direct);
+tier!(Fast, f32, f32x8, MollerTrumbore, Direct, as_is, as_is, as_is);
+tier!(Watertight, f32, f32x8, Woop, Filtered, as_is, as_is, as_is);
+tier!(Exact, f64, f64x8, Woop, Direct, f32x8::narrow, above, below);
+
+#[inline(always)]
+fn as_is(x: f32x8) -> f32x8 {
+    x
+}
+
+/// The next number up from the nearest is never below.
+fn above(x: f64x8) -> f32x8 {
+    let nearest = f32x8::narrow(x).to_array();
+    f32x8::new(nearest.map(f32::next_up))
+}
+
+fn below(x: f64x8) -> f32x8 {
+    let nearest = f32x8::narrow(x).to_array();
+    f32x8::new(nearest.map(f32::next_down))
+}
 
 /// The name of a tier, as users choose it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]

@@ -2,11 +2,20 @@
 
 use std::ops::{BitAnd, BitOr, BitXor, Not};
 
-use wide::{f32x8, f64x8, i32x8, u32x8};
+use wide::{f32x8, f64x8, i32x8, u32x8, u64x8};
 
 use super::{BitLane, Lane, Mask, WIDTH};
 
 const LANE_BITS: [u32; WIDTH] = [1, 2, 4, 8, 16, 32, 64, 128];
+
+/// An array from a function of the lane number, written out: `array::from_fn` and `map` leave the compiler loops over
+/// guards to take apart, which costs minutes over all kernels.
+macro_rules! eight {
+    ($f:expr) => {{
+        let mut f = $f;
+        [f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)]
+    }};
+}
 
 impl BitLane for u32x8 {
     #[inline(always)]
@@ -15,7 +24,7 @@ impl BitLane for u32x8 {
     }
     #[inline(always)]
     fn from_fn(words: impl FnMut(usize) -> u32) -> Self {
-        u32x8::new(std::array::from_fn(words))
+        u32x8::new(eight!(words))
     }
     #[inline(always)]
     fn get(self, i: usize) -> u32 {
@@ -93,17 +102,13 @@ macro_rules! wide_mask {
 #[inline(always)]
 fn f32_mask(bits: u32) -> f32x8 {
     let lanes = u32x8::new(LANE_BITS);
-    as_float((u32x8::splat(bits) & lanes).simd_eq(lanes))
+    bytemuck::cast((u32x8::splat(bits) & lanes).simd_eq(lanes))
 }
 
 #[inline(always)]
 fn f64_mask(bits: u32) -> f64x8 {
-    f64x8::new(std::array::from_fn(|i| f64::from_bits(if bits >> i & 1 != 0 { u64::MAX } else { 0 })))
-}
-
-#[inline(always)]
-fn as_float(words: u32x8) -> f32x8 {
-    f32x8::new(words.to_array().map(f32::from_bits))
+    let lanes = u64x8::new([1, 2, 4, 8, 16, 32, 64, 128]);
+    bytemuck::cast((u64x8::splat(u64::from(bits)) & lanes).simd_eq(lanes))
 }
 
 wide_mask!(Mask32, f32x8, f32_mask);
@@ -127,7 +132,7 @@ macro_rules! wide_lane {
         }
         #[inline(always)]
         fn from_fn(values: impl FnMut(usize) -> $s) -> Self {
-            $v::new(std::array::from_fn(values))
+            $v::new(eight!(values))
         }
         #[inline(always)]
         fn get(self, i: usize) -> $s {
@@ -190,7 +195,7 @@ impl Lane for f32x8 {
 
     #[inline(always)]
     fn select_bits(mask: Mask32, yes: u32x8, no: u32x8) -> u32x8 {
-        let mask = u32x8::new(mask.0.to_array().map(f32::to_bits));
+        let mask: u32x8 = bytemuck::cast(mask.0);
         (yes & mask) | (no & !mask)
     }
     #[inline(always)]
@@ -203,11 +208,13 @@ impl Lane for f32x8 {
     }
     #[inline(always)]
     fn widen(self) -> f64x8 {
-        f64x8::new(self.to_array().map(f64::from))
+        let x = self.to_array();
+        f64x8::new(eight!(|i: usize| f64::from(x[i])))
     }
     #[inline(always)]
     fn narrow(value: f64x8) -> Self {
-        f32x8::new(value.to_array().map(|x| x as f32))
+        let x = value.to_array();
+        f32x8::new(eight!(|i: usize| x[i] as f32))
     }
     #[inline(always)]
     fn narrow_mask(mask: Mask64) -> Mask32 {
@@ -228,7 +235,7 @@ impl Lane for f64x8 {
     }
     #[inline(always)]
     fn load_f32(values: &[f32; 8]) -> Self {
-        f64x8::new(values.map(f64::from))
+        f64x8::new(eight!(|i: usize| f64::from(values[i])))
     }
     #[inline(always)]
     fn from_bits(words: u32x8) -> Self {
@@ -254,7 +261,7 @@ impl Lane for f64x8 {
 
 #[inline(always)]
 fn as_signed(words: u32x8) -> i32x8 {
-    i32x8::new(words.to_array().map(|w| w as i32))
+    bytemuck::cast(words)
 }
 
 #[cfg(test)]
