@@ -20,7 +20,11 @@ impl<T: Tier> PreparedRays<T> {
     /// Prepares rays for a tree whose coordinates are at most `scale`.
     #[inline(always)]
     pub(super) fn new(ray: RayLanes<T::Wide>, scale: f32) -> Self {
-        let narrow = |v: Vec3<T::Wide>| Vec3 { x: T::nearest_f32(v.x), y: T::nearest_f32(v.y), z: T::nearest_f32(v.z) };
+        let narrow = |v: Vec3<T::Wide>| Vec3 {
+            x: T::nearest_f32(v.x),
+            y: T::nearest_f32(v.y),
+            z: T::nearest_f32(v.z),
+        };
         let cull = CullRay::new(narrow(ray.origin), narrow(ray.direction), wide::f32x8::splat(scale));
         Self { cull, triangle: T::Triangle::prepare(&ray), ray }
     }

@@ -19,7 +19,8 @@ fn report(name: &str, scene: &Scene) -> String {
     section(&mut text, "holds", &holds(scene));
     section(&mut text, "memory by column", &memory(scene));
     let (runs, rests): (Vec<_>, Vec<_>) = stages(&scene.requirements).into_iter().partition(|s| s.1);
-    let names = |stages: Vec<(String, bool)>| stages.into_iter().map(|s| (s.0, String::new())).collect::<Vec<_>>();
+    let names =
+        |stages: Vec<(String, bool)>| stages.into_iter().map(|s| (s.0, String::new())).collect::<Vec<_>>();
     section(&mut text, "runs", &names(runs));
     section(&mut text, "needs not, so neither allocated nor visited nor run", &names(rests));
     text
@@ -54,8 +55,13 @@ fn holds(scene: &Scene) -> Vec<(String, String)> {
 }
 
 fn memory(scene: &Scene) -> Vec<(String, String)> {
-    let columns: Vec<(String, u64)> =
-        scene.geometry.memory().into_iter().chain(scene.accel.memory()).chain(scene.surface_memory()).collect();
+    let columns: Vec<(String, u64)> = scene
+        .geometry
+        .memory()
+        .into_iter()
+        .chain(scene.accel.memory())
+        .chain(scene.surface_memory())
+        .collect();
     let total = columns.iter().map(|c| c.1).sum();
     let used = columns.into_iter().filter(|c| c.1 > 0).chain([("in all".to_owned(), total)]);
     used.map(|(name, bytes)| (name, human::bytes(bytes))).collect()

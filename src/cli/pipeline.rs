@@ -40,7 +40,9 @@ fn describe(source: &SceneSource, sets: &[String]) -> Result<SceneDescription, C
             read.map_err(|error| CliError::new(Exit::Failed, "cannot read standard input").because(error))?;
             describe::parse_with(&text, "standard input", sets).map_err(refused)
         }
-        SceneSource::File(path) if is_mesh(path) => framed(path)?.amended(&source.to_string(), sets).map_err(refused),
+        SceneSource::File(path) if is_mesh(path) => {
+            framed(path)?.amended(&source.to_string(), sets).map_err(refused)
+        }
         SceneSource::File(path) => describe::read_with(path, sets).map_err(refused),
         SceneSource::BuiltIn(name) => builtin(name)?.amended(name, sets).map_err(refused),
     }

@@ -24,7 +24,11 @@ impl Geometry {
             ("spheres", bytes_of(&s.center) + bytes(&s.radius) + bytes(&s.material)),
             (
                 "cylinders",
-                bytes_of(&c.from) + bytes_of(&c.to) + bytes(&c.radius) + bytes(&c.capped) + bytes(&c.material),
+                bytes_of(&c.from)
+                    + bytes_of(&c.to)
+                    + bytes(&c.radius)
+                    + bytes(&c.capped)
+                    + bytes(&c.material),
             ),
             ("planes", bytes_of(&p.point) + bytes_of(&p.normal) + bytes(&p.material)),
             ("instances", bytes(&self.instances)),
