@@ -18,6 +18,9 @@ pub enum Hint {
     Incoherent,
 }
 
+/// Nodes of a tree that packets of any rays go through together.
+const SMALL_TREE: usize = 8;
+
 /// Scratch of one worker for traversals: stacks as deep as the tree needs.
 #[derive(Debug)]
 pub struct Traversal<'a> {
@@ -39,7 +42,7 @@ impl<'a> Traversal<'a> {
         let mut query = Closest::new(ray.t_max);
         self.ask_planes::<T, _>(ray, &mut query);
         let rays = PreparedRays::<T>::new(*ray, self.accel.world.scale);
-        if together(&rays.cull, hint) {
+        if self.together(&rays.cull, hint) {
             packet::traverse(self.accel, self.accel.world.node, &rays, &mut query, &mut self.packet_stack);
             return query;
         }
@@ -71,7 +74,7 @@ impl<'a> Traversal<'a> {
         let mut query = AnyHit::new(ray.t_max);
         self.ask_planes::<T, _>(ray, &mut query);
         let rays = PreparedRays::<T>::new(*ray, self.accel.world.scale);
-        if together(&rays.cull, hint) {
+        if self.together(&rays.cull, hint) {
             packet::traverse(self.accel, self.accel.world.node, &rays, &mut query, &mut self.packet_stack);
             return query.hits();
         }
@@ -92,6 +95,20 @@ impl<'a> Traversal<'a> {
         PreparedRays::new(RayLanes::splat(&ray.get(lane)), self.accel.world.scale)
     }
 
+    /// Whether a packet traverses together: when told so, when all rays go into one octant, or when the tree is so small
+    /// that rays share most of it wherever they go.
+    #[inline(always)]
+    fn together(&self, cull: &CullRay<wide::f32x8>, hint: Hint) -> bool {
+        match hint {
+            Hint::Coherent => true,
+            Hint::Incoherent => false,
+            Hint::Auto => {
+                self.accel.nodes.len() <= SMALL_TREE
+                    || cull.backward().iter().all(|m| matches!(m.bits(), 0 | 0xff))
+            }
+        }
+    }
+
     /// Planes reach everywhere, so they stand before the tree and not in it.
     #[inline(always)]
     fn ask_planes<T: Tier, Q: Query<T::Wide>>(&self, ray: &RayLanes<T::Wide>, query: &mut Q) {
@@ -100,16 +117,6 @@ impl<'a> Traversal<'a> {
             let hit: LaneHit<T::Wide> = plane::solve(ray, &lanes);
             query.accept(ray, &hit, BitLane::splat(PrimId::new(PrimKind::Plane, row).0));
         }
-    }
-}
-
-/// Whether a packet traverses together: when told so, or when all rays go into one octant.
-#[inline(always)]
-fn together(cull: &CullRay<wide::f32x8>, hint: Hint) -> bool {
-    match hint {
-        Hint::Coherent => true,
-        Hint::Incoherent => false,
-        Hint::Auto => cull.backward().iter().all(|m| matches!(m.bits(), 0 | 0xff)),
     }
 }
 

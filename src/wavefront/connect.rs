@@ -2,7 +2,7 @@
 
 use bumpalo::Bump;
 
-use super::emit::{add, not_black};
+use super::emit::not_black;
 use super::offset::offset_along;
 use super::queue::{Column3, column, compress_words, words};
 use super::surface_queue::SurfaceQueue;
@@ -112,6 +112,6 @@ fn trace<T: Tier>(worker: &mut Worker<T>, light: &Light, queue: &ShadowQueue<T::
         };
         let blocked = worker.traversal.any::<T>(&ray, Hint::Auto);
         let lanes = !blocked & ((1u64 << count) - 1) as u32;
-        add(worker, words(queue.slot, at), queue.radiance.load(at), lanes);
+        worker.radiance.add(words(queue.slot, at), queue.radiance.load::<T::Wide>(at), lanes);
     }
 }

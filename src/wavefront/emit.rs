@@ -1,11 +1,11 @@
 //! Radiance that needs no light source: the background for paths that miss, the glow of surfaces for those that hit.
 
 use super::extend::Hits;
-use super::queue::{PathQueue, list_lanes, set_bits};
+use super::queue::{PathQueue, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
 use crate::intersect::Tier;
-use crate::math::{Lane, Real, Vec3, WIDTH};
+use crate::math::{Lane, Vec3, WIDTH};
 use crate::scene::gather3;
 
 /// Adds what missing paths see.
@@ -21,7 +21,7 @@ pub(super) fn background<T: Tier>(
         let direction = queue.direction.gather::<T::Wide>(&paths);
         let seen = worker.frame.scene.background.radiance(direction);
         let radiance = queue.throughput.gather::<T::Wide>(&paths).scale(seen);
-        add(worker, &paths.map(|p| queue.slot[p as usize]), radiance, lanes);
+        worker.radiance.add(&paths.map(|p| queue.slot[p as usize]), radiance, lanes);
     }
 }
 
@@ -30,20 +30,7 @@ pub(super) fn glow<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T::R
     for at in (0..surfaces.len).step_by(WIDTH) {
         let glow = gather3::<T::Wide>(&worker.frame.scene.materials.glow, surfaces.materials(at));
         let radiance = surfaces.throughput.load::<T::Wide>(at).scale(glow);
-        add(worker, surfaces.slots(at), radiance, surfaces.lanes(at));
-    }
-}
-
-/// Adds the chosen lanes to their slots.
-#[inline(always)]
-pub(super) fn add<T: Tier>(
-    worker: &mut Worker<T>,
-    slots: &[u32; WIDTH],
-    radiance: Vec3<T::Wide>,
-    lanes: u32,
-) {
-    for i in set_bits(lanes) {
-        worker.radiance.add(slots[i] as usize, radiance.get(i).map(Real::to_f32));
+        worker.radiance.add(surfaces.slots(at), radiance, surfaces.lanes(at));
     }
 }
 

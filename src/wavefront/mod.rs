@@ -1,7 +1,7 @@
 //! Queues of path states, and the loop over them: generate, extend, shade, connect, scatter.
 //!
 //! A wave holds some samples of the pixels of a tile. Its paths go through the stages together, one depth after the other.
-//! What a path adds to its sample is added exactly ([`crate::film::ExactSum`]), so neither the order of queues nor the way
+//! What a path adds to its sample is added exactly ([`crate::film::SampleSums`]), so neither the order of queues nor the way
 //! they are cut changes the picture.
 
 mod connect;

@@ -26,45 +26,6 @@ fn recursive_sum(blocks: &[[f32; 2]]) -> [f32; 2] {
 }
 
 #[test]
-fn quantising_is_exact_where_it_can_be_and_bounded_elsewhere() {
-    let limit = ExactSum::LIMIT;
-    for (x, expected) in [
-        (0.0, 0.0),
-        (0.1, 0.1),
-        (-3.75, -3.75),
-        (limit, limit),
-        (2.0 * limit, limit),
-        (f32::INFINITY, limit),
-        (f32::NEG_INFINITY, -limit),
-        (f32::NAN, 0.0),
-        (1e-20, 0.0),
-    ] {
-        assert_eq!(ExactSum::quantise(x).to_f32(), expected, "{x}");
-    }
-    let step = (1.0 / STEPS_PER_UNIT) as f32;
-    assert_eq!(ExactSum::quantise(step).to_f32(), step);
-    assert_eq!(ExactSum::quantise(0.5 * step).to_f32(), 0.0, "ties go to even");
-}
-
-#[test]
-fn a_sum_beyond_all_bounds_stays_at_the_limit() {
-    let huge = ExactSum::quantise(f32::INFINITY);
-    let sum = (0..100).fold(ExactSum::default(), |s, _| s.plus(huge));
-    assert_eq!(sum.to_f32(), 8.0 * ExactSum::LIMIT);
-}
-
-#[test]
-fn contributions_that_are_not_numbers_are_left_out_and_counted() {
-    let mut sums = SampleSums::default();
-    sums.reset(2);
-    sums.add(1, [1.0, 2.0, 3.0]);
-    sums.add(1, [1.0, f32::NAN, 3.0]);
-    assert_eq!((sums.rgb(0), sums.rgb(1), sums.nan_count()), ([0.0; 3], [1.0, 2.0, 3.0], 1));
-    sums.reset(1);
-    assert_eq!((sums.rgb(0), sums.nan_count()), ([0.0; 3], 0));
-}
-
-#[test]
 fn gaps_and_overlaps_are_refused() {
     let blocks = [[1.0, 2.0]; 8];
     let mut first = tree(&blocks, 0, 4);
