@@ -13,7 +13,7 @@ mod vec3;
 pub use aabb::Aabb;
 pub use lane::{BitLane, Lane, Mask, Real};
 pub use transform::{Transform, TransformError};
-pub use vec3::Vec3;
+pub use vec3::{Vec3, fused_cross, fused_dot};
 
 /// Lanes in one packet: the width of `f32x8`.
 pub const WIDTH: usize = 8;

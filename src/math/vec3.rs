@@ -113,6 +113,22 @@ impl<L: Lane> Vec3<L> {
     }
 }
 
+/// Inner product, fused where the build fuses: see [`Lane::mul_add_fast`].
+#[inline(always)]
+pub fn fused_dot<L: Lane>(a: Vec3<L>, b: Vec3<L>) -> L {
+    a.x.mul_add_fast(b.x, a.y.mul_add_fast(b.y, a.z * b.z))
+}
+
+/// Outer product, fused where the build fuses: see [`Lane::mul_add_fast`].
+#[inline(always)]
+pub fn fused_cross<L: Lane>(a: Vec3<L>, b: Vec3<L>) -> Vec3<L> {
+    Vec3::new(
+        a.y.mul_add_fast(b.z, -(a.z * b.y)),
+        a.z.mul_add_fast(b.x, -(a.x * b.z)),
+        a.x.mul_add_fast(b.y, -(a.y * b.x)),
+    )
+}
+
 impl<L: Lane> Add for Vec3<L> {
     type Output = Self;
     #[inline(always)]

@@ -97,10 +97,14 @@ pub struct Scene {
     pub times: CompileTimes,
 }
 
-/// The rows of a column named by lanes.
+/// The rows of a column named by lanes. Eight neighbours often ask for the same row: then one look-up serves all.
 #[inline(always)]
 pub(crate) fn gather<L: Lane>(column: &[f32], rows: &[u32; WIDTH]) -> L {
-    L::from_fn(|i| <L::Scalar as Real>::from_f32(column[rows[i] as usize]))
+    let value = |row: u32| <L::Scalar as Real>::from_f32(column[row as usize]);
+    if *rows == [rows[0]; WIDTH] {
+        return L::splat(value(rows[0]));
+    }
+    L::from_fn(|i| value(rows[i]))
 }
 
 /// The rows of three columns named by lanes.

@@ -52,9 +52,10 @@ fn shade<T: Tier, const FRACTION: bool>(
     queue: &mut ShadowQueue<T::Real>,
 ) {
     for at in (0..surfaces.len).step_by(WIDTH) {
-        let point = surfaces.point.load::<T::Wide>(at);
-        let geometric_normal = surfaces.geometric_normal.load(at);
-        let lit = light.illuminate(point);
+        let geometric_normal = surfaces.geometric_normal.load::<T::Wide>(at);
+        let error = T::Wide::load(&surfaces.error[at..]);
+        let origin = offset_along(surfaces.point.load(at), error, geometric_normal);
+        let lit = light.illuminate(origin);
         let above = lit.to_light.dot(geometric_normal).gt(T::Wide::zero());
         if above.bits() & surfaces.lanes(at) == 0 {
             continue;
@@ -65,13 +66,11 @@ fn shade<T: Tier, const FRACTION: bool>(
         if wanted == 0 {
             continue;
         }
-        let error = T::Wide::load(&surfaces.error[at..]);
-        let origin = offset_along(point, error, geometric_normal);
         let k = queue.len;
         queue.origin.compress(k, origin, wanted);
-        queue.direction.compress(k, light.illuminate(origin).to_light, wanted);
+        queue.direction.compress(k, lit.to_light, wanted);
         queue.radiance.compress(k, radiance, wanted);
-        compress_words(queue.slot, k, <wide::u32x8 as BitLane>::from_fn(|i| surfaces.slots(at)[i]), wanted);
+        compress_words(queue.slot, k, surfaces.slots(at), wanted);
         queue.len += wanted.count_ones() as usize;
     }
 }

@@ -5,8 +5,9 @@ use bumpalo::Bump;
 use super::queue::{PathQueue, column, padded};
 use super::wave::Worker;
 use crate::accel::Hint;
+use crate::accel::query::Closest;
 use crate::intersect::{PrimId, PrimKind, RayLanes, Tier};
-use crate::math::{BitLane, Lane, WIDTH};
+use crate::math::{Lane, Mask, Real, WIDTH};
 
 /// Nearest hits of a chunk of paths, and the paths by what they hit.
 ///
@@ -45,23 +46,31 @@ pub(super) fn extend<'a, T: Tier>(
         let count = (n - at).min(WIDTH);
         let ray = load_rays::<T>(queue, first + at, count);
         let found = worker.traversal.closest::<T>(&ray, hint);
-        found.t.store(&mut hits.t[at..]);
-        found.u.store(&mut hits.u[at..]);
-        found.v.store(&mut hits.v[at..]);
-        for i in 0..count {
-            hits.prim[at + i] = found.prim.get(i);
-            if let Some(instance) = hits.instance.get_mut(at + i) {
-                *instance = found.instance.get(i);
-            }
-            let missed = !(found.t.get(i) < ray.t_max.get(i));
+        hits.store::<T>(at, count, &found, found.t.lt(ray.t_max).bits());
+    }
+    hits
+}
+
+impl<R: Real> Hits<'_, R> {
+    /// Takes note of what eight paths hit, of which the first `count` are there.
+    #[inline(always)]
+    fn store<T: Tier<Real = R>>(&mut self, at: usize, count: usize, found: &Closest<T::Wide>, hit: u32) {
+        found.t.store(&mut self.t[at..]);
+        found.u.store(&mut self.u[at..]);
+        found.v.store(&mut self.v[at..]);
+        let prims = found.prim.to_array();
+        self.prim[at..at + WIDTH].copy_from_slice(&prims);
+        if let Some(instance) = self.instance.get_mut(at..at + WIDTH) {
+            instance.copy_from_slice(&found.instance.to_array());
+        }
+        for (i, &prim) in prims.iter().enumerate().take(count) {
             let row = (at + i) as u32;
-            match missed {
-                true => hits.misses.push(row),
-                false => hits.by_kind[PrimId(found.prim.get(i)).kind() as usize - 1].push(row),
+            match hit >> i & 1 {
+                0 => self.misses.push(row),
+                _ => self.by_kind[PrimId(prim).kind() as usize - 1].push(row),
             }
         }
     }
-    hits
 }
 
 /// Eight paths as rays without end; lanes beyond `count` are turned off.

@@ -44,11 +44,9 @@ fn camera_rays<T: Tier>(
     at: usize,
 ) -> (crate::scene::CameraRays<T::Wide>, T::Wide) {
     type Bits = wide::u32x8;
-    let last = wave.len() - 1;
-    let slots: [_; WIDTH] = std::array::from_fn(|i| wave.of_slot((at + i).min(last) as u32));
-    let lane = |f: &dyn Fn(usize) -> u32| <Bits as BitLane>::from_fn(f);
-    let (x, y) = (lane(&|i| slots[i].0[0]), lane(&|i| slots[i].0[1]));
-    let sample = lane(&|i| slots[i].1);
+    let slots = wave.eight_slots(at);
+    let (x, y) = (Bits::new(slots.map(|s| s.0[0])), Bits::new(slots.map(|s| s.0[1])));
+    let sample = Bits::new(slots.map(|s| s.1));
     let draw = |dimension| frame.sampler.pair::<T::Wide>(x, y, sample, BitLane::splat(dimension));
     let (u, v) = draw(FILTER);
     let (dx, dy, weight) = frame.filter.sample(u, v);

@@ -4,7 +4,7 @@
 
 use bumpalo::Bump;
 
-use crate::math::{BitLane, Lane, Mask, Real, Vec3, WIDTH};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
 
 /// The least multiple of the packet width that holds `n`.
 pub(super) fn padded(n: usize) -> usize {
@@ -32,6 +32,9 @@ impl<'a, R: Real> Column3<'a, R> {
     /// The rows named by `rows`.
     #[inline(always)]
     pub(super) fn gather<L: Lane<Scalar = R>>(&self, rows: &[u32; WIDTH]) -> Vec3<L> {
+        if is_run(rows) {
+            return self.load(rows[0] as usize);
+        }
         let [x, y, z] = &self.0;
         let one = |column: &[R]| L::from_fn(|i| column[rows[i] as usize]);
         Vec3::new(one(x), one(y), one(z))
@@ -52,11 +55,6 @@ impl<'a, R: Real> Column3<'a, R> {
         compress(y, at, v.y, lanes);
         compress(z, at, v.z, lanes);
     }
-    /// One row.
-    #[inline(always)]
-    pub(super) fn get(&self, row: usize) -> [R; 3] {
-        [self.0[0][row], self.0[1][row], self.0[2][row]]
-    }
 }
 
 /// Writes the chosen lanes to consecutive rows from `at` on.
@@ -74,9 +72,9 @@ pub(super) fn compress<L: Lane>(column: &mut [L::Scalar], at: usize, v: L, lanes
 
 /// Writes the chosen words to consecutive rows from `at` on.
 #[inline(always)]
-pub(super) fn compress_words<B: BitLane>(column: &mut [u32], at: usize, v: B, lanes: u32) {
+pub(super) fn compress_words(column: &mut [u32], at: usize, words: &[u32; WIDTH], lanes: u32) {
     for (k, i) in set_bits(lanes).enumerate() {
-        column[at + k] = v.get(i);
+        column[at + k] = words[i];
     }
 }
 
@@ -89,6 +87,21 @@ pub(super) fn set_bits(bits: u32) -> impl Iterator<Item = usize> {
         rest &= rest.wrapping_sub(1);
         (i < 32).then_some(i)
     })
+}
+
+/// True if the rows follow each other, as they do where neighbours hit the same: then they load as they lie.
+#[inline(always)]
+pub(super) fn is_run(rows: &[u32; WIDTH]) -> bool {
+    *rows == std::array::from_fn(|i| rows[0].wrapping_add(i as u32))
+}
+
+/// The rows of a column named by `rows`.
+#[inline(always)]
+pub(super) fn gather<L: Lane>(column: &[L::Scalar], rows: &[u32; WIDTH]) -> L {
+    if is_run(rows) {
+        return L::load(&column[rows[0] as usize..]);
+    }
+    L::from_fn(|i| column[rows[i] as usize])
 }
 
 /// Words of eight rows from `at` on.

@@ -15,7 +15,7 @@ use crate::intersect::Tier;
 
 /// Most paths that go through a stage at once. Queues that grow beyond are cut, and what grows out of the first piece is
 /// finished before the next: memory stays bounded however rays split.
-pub(super) const CHUNK: usize = 2048;
+pub(super) const CHUNK: usize = 1024;
 
 /// An arena for each depth, reset when the queue it holds is done with.
 pub(super) type Arenas = [Bump];

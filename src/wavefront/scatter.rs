@@ -2,7 +2,7 @@
 
 use super::medium::{enter, innermost, leave};
 use super::offset::offset_along;
-use super::queue::{PathLanes, PathQueue, list_lanes, set_bits};
+use super::queue::{PathLanes, PathQueue, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
 use crate::intersect::Tier;
@@ -61,11 +61,11 @@ fn gather<T: Tier>(
     let materials = rows.map(|r| surfaces.material(r));
     let tint = gather3::<T::Wide>(&scene.materials.tint, &materials);
     let weight = surfaces.throughput.gather::<T::Wide>(rows).scale(tint);
-    let inside = set_bits(0xff).map(|i| surfaces.from_inside[rows[i] as usize] << i).sum();
+    let inside = (0..WIDTH).map(|i| surfaces.from_inside[rows[i] as usize] << i).sum();
     let bright = weight.max_component().ge(T::Wide::constant(scene.settings.min_throughput));
     Lanes {
         point: surfaces.point.gather(rows),
-        error: T::Wide::from_fn(|i| surfaces.error[rows[i] as usize]),
+        error: column_rows(surfaces.error, rows),
         geometric_normal: surfaces.geometric_normal.gather(rows),
         shading_normal: surfaces.shading_normal.gather(rows),
         direction: surfaces.direction.gather(rows),
@@ -192,12 +192,11 @@ fn diffuse<T: Tier>(
     next: &mut PathQueue<T::Real>,
 ) {
     let samples = s.slot.map(|slot| wave.of_slot(slot));
-    let lane = |f: &dyn Fn(usize) -> u32| <wide::u32x8 as BitLane>::from_fn(f);
-    let branch = lane(&|i| paths.branch[s.path[i] as usize]);
+    let branch = <wide::u32x8 as BitLane>::from_fn(|i| paths.branch[s.path[i] as usize]);
     let (u, v) = worker.frame.sampler.pair::<T::Wide>(
-        lane(&|i| samples[i].0[0]),
-        lane(&|i| samples[i].0[1]),
-        lane(&|i| samples[i].1),
+        BitLane::from_fn(|i| samples[i].0[0]),
+        BitLane::from_fn(|i| samples[i].0[1]),
+        BitLane::from_fn(|i| samples[i].1),
         bounce(ScatterDraw::Direction, depth, branch),
     );
     let direction = to_frame(cosine_hemisphere(u, v), s.shading_normal);

@@ -3,7 +3,7 @@
 use bumpalo::Bump;
 
 use super::extend::{Hits, KINDS};
-use super::queue::{Column3, PathQueue, column, compress, list_lanes, set_bits, words};
+use super::queue::{Column3, PathQueue, column, compress, gather, list_lanes, set_bits, words};
 use super::surface::{HitLanes, SurfaceLanes, evaluate};
 use crate::intersect::PrimId;
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
@@ -160,13 +160,12 @@ fn gather_hits<L: Lane>(
     hits: &Hits<L::Scalar>,
     rows: &[u32; WIDTH],
 ) -> HitLanes<L> {
-    let one = |column: &[L::Scalar]| L::from_fn(|i| column[rows[i] as usize]);
     HitLanes {
         origin: queue.origin.gather(paths),
         direction: queue.direction.gather(paths),
-        t: one(hits.t),
-        u: one(hits.u),
-        v: one(hits.v),
+        t: gather(hits.t, rows),
+        u: gather(hits.u, rows),
+        v: gather(hits.v, rows),
         row: rows.map(|r| PrimId(hits.prim[r as usize]).row() as u32),
         instance: rows.map(|r| hits.instance.get(r as usize).copied().unwrap_or(0)),
     }

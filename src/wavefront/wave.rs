@@ -3,6 +3,7 @@
 use crate::accel::Traversal;
 use crate::film::SampleSums;
 use crate::intersect::Tier;
+use crate::math::WIDTH;
 use crate::sampling::{FilterSampler, Sampler};
 use crate::scene::{Scatter, Scene};
 
@@ -51,6 +52,19 @@ pub(super) struct WaveSamples<'a> {
 impl WaveSamples<'_> {
     pub(super) fn len(&self) -> usize {
         self.pixels.len() * self.samples as usize
+    }
+    /// Pixels and sample numbers of the slots from `at` on; the last pixel stands in beyond the end.
+    #[inline(always)]
+    pub(super) fn eight_slots(&self, at: usize) -> [([u32; 2], u32); WIDTH] {
+        let (mut pixel, mut sample) = (at % self.pixels.len(), at / self.pixels.len());
+        std::array::from_fn(|_| {
+            let slot = (self.pixels[pixel], self.first_sample + sample as u32);
+            pixel += 1;
+            if pixel == self.pixels.len() {
+                (pixel, sample) = (0, sample + 1);
+            }
+            slot
+        })
     }
     /// Pixel and sample number of a slot.
     #[inline(always)]

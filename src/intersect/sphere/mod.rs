@@ -11,7 +11,7 @@
 pub mod oracle;
 
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{Aabb, Lane, Mask, Vec3, gamma};
+use crate::math::{Aabb, Lane, Mask, Vec3, fused_cross, fused_dot, gamma};
 
 /// Spheres as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -69,12 +69,13 @@ pub fn filter_and_solve<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> 
 #[inline(always)]
 fn may_hit<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {
     let (f, d) = (ray.origin - s.center, ray.direction);
-    let (a, b, ff) = (d.length_squared(), f.dot(d), f.length_squared());
-    let across = f - d * (b / a);
-    // Each component of `across` is off by at most gamma(8) |f|, its square by twice that times |f|^2.
+    let (a, b, ff) = (fused_dot(d, d), fused_dot(f, d), fused_dot(f, f));
+    let n = fused_cross(f, d);
+    // Lagrange: |f x d| = |d| times the distance of the line. Its components are off by at most gamma(3) |f| |d|, so its
+    // square by less than gamma(24) |f|^2 |d|^2; the slack is twice that and more.
     let slack = ff * L::constant(f64::from(4.0 * gamma(16))) + L::constant(f64::from(f32::MIN_POSITIVE));
     let reach = s.radius * s.radius + slack;
-    let misses = across.length_squared().gt(reach);
+    let misses = fused_dot(n, n).gt(reach * a);
     let behind = b.gt(L::zero()) & ff.gt(reach + slack) & ray.t_min.ge(L::zero());
     let in_range = a.gt(L::constant(1e-30)) & a.lt(L::constant(1e30));
     !((misses | behind) & in_range)

@@ -6,25 +6,11 @@
 //! **Source:** Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
 
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Lane, Mask, Vec3};
+use crate::math::{Lane, Mask, Vec3, fused_cross, fused_dot};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct MollerTrumbore;
-
-#[inline(always)]
-fn fused_dot<L: Lane>(a: Vec3<L>, b: Vec3<L>) -> L {
-    a.x.mul_add_fast(b.x, a.y.mul_add_fast(b.y, a.z * b.z))
-}
-
-#[inline(always)]
-fn fused_cross<L: Lane>(a: Vec3<L>, b: Vec3<L>) -> Vec3<L> {
-    Vec3::new(
-        a.y.mul_add_fast(b.z, -(a.z * b.y)),
-        a.z.mul_add_fast(b.x, -(a.x * b.z)),
-        a.x.mul_add_fast(b.y, -(a.y * b.x)),
-    )
-}
 
 impl TriangleTest for MollerTrumbore {
     type Prepared<L: Lane> = ();
