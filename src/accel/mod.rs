@@ -4,6 +4,7 @@ mod assemble;
 pub mod block;
 pub mod brute;
 pub mod build;
+mod descend;
 mod leaf;
 pub mod node;
 mod packet;

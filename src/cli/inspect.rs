@@ -79,6 +79,7 @@ fn stages(r: &Requirements) -> Vec<(String, bool)> {
     stage("extend: instances", r.instances);
     stage("shade: interpolated normals", r.shading_normals);
     stage("shade: textures", r.textures);
+    stage("shade: ambient light and emission", r.glow);
     stage("connect: shadow rays", r.lights);
     stage("connect: highlights", r.highlights);
     stage("connect: fractional shininess", r.fractional_shininess);

@@ -6,7 +6,7 @@ use super::queue::{PathLanes, PathQueue, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
 use crate::intersect::Tier;
-use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
+use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH, eight};
 use crate::sampling::{ScatterDraw, bounce, child_branch, cosine_hemisphere, to_frame};
 use crate::scene::{Scatter, gather3};
 use crate::shading::{fresnel_dielectric, reflect, refract};
@@ -58,7 +58,7 @@ fn gather<T: Tier>(
     lanes: u32,
 ) -> Lanes<T::Wide> {
     let scene = worker.frame.scene;
-    let materials = rows.map(|r| surfaces.material(r));
+    let materials = eight(|i| surfaces.material(rows[i]));
     let tint = gather3::<T::Wide>(&scene.materials.tint, &materials);
     let weight = surfaces.throughput.gather::<T::Wide>(rows).scale(tint);
     let inside = (0..WIDTH).map(|i| surfaces.from_inside[rows[i] as usize] << i).sum();
@@ -71,8 +71,8 @@ fn gather<T: Tier>(
         direction: surfaces.direction.gather(rows),
         weight,
         materials,
-        slot: rows.map(|r| surfaces.slot(r)),
-        path: rows.map(|r| surfaces.path[r as usize]),
+        slot: eight(|i| surfaces.slot(rows[i])),
+        path: eight(|i| surfaces.path[rows[i] as usize]),
         from_inside: Mask::from_bits(inside),
         lanes: lanes & bright.bits(),
     }
@@ -106,10 +106,11 @@ impl<L: Lane> Lanes<L> {
             direction,
             throughput: weight,
             slot: self.slot,
-            medium: self.path.map(|p| paths.medium.get(p as usize).copied().unwrap_or_default()),
-            branch: self
-                .path
-                .map(|p| child_branch(paths.branch.get(p as usize).copied().unwrap_or_default(), which)),
+            medium: eight(|i| paths.medium.get(self.path[i] as usize).copied().unwrap_or_default()),
+            branch: eight(|i| {
+                let parent = paths.branch.get(self.path[i] as usize);
+                child_branch(parent.copied().unwrap_or_default(), which)
+            }),
         }
     }
 }
@@ -142,7 +143,7 @@ fn dielectric<T: Tier>(
     let least = T::Wide::constant(scene.settings.min_throughput);
     let mut through =
         PathLanes { medium: beyond::<T>(s, paths), ..s.leaving(s.direction, s.weight, Side::Other, paths) };
-    let near = s.path.map(|p| paths.medium[p as usize]);
+    let near = eight(|i| paths.medium[s.path[i] as usize]);
     let eta = refraction_index::<T>(worker, &through.medium) / refraction_index::<T>(worker, &near);
     let reflectance = fresnel_dielectric(s.direction.dot(s.shading_normal), eta);
 
@@ -164,7 +165,7 @@ fn dielectric<T: Tier>(
 /// The dielectrics around the refracted rays: one more on the way in, one less on the way out.
 fn beyond<T: Tier>(s: &Lanes<T::Wide>, paths: &PathQueue<T::Real>) -> [u64; WIDTH] {
     let inside = s.from_inside.bits();
-    std::array::from_fn(|i| {
+    eight(|i| {
         let (state, body) = (paths.medium[s.path[i] as usize], s.materials[i] as u16 + 1);
         if inside >> i & 1 != 0 { leave(state, body) } else { enter(state, body) }
     })
@@ -191,7 +192,7 @@ fn diffuse<T: Tier>(
     paths: &PathQueue<T::Real>,
     next: &mut PathQueue<T::Real>,
 ) {
-    let samples = s.slot.map(|slot| wave.of_slot(slot));
+    let samples = eight(|i| wave.of_slot(s.slot[i]));
     let branch = <wide::u32x8 as BitLane>::from_fn(|i| paths.branch[s.path[i] as usize]);
     let (u, v) = worker.frame.sampler.pair::<T::Wide>(
         BitLane::from_fn(|i| samples[i].0[0]),
