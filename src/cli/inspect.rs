@@ -10,7 +10,7 @@ use crate::scene::{Requirements, Scatter, Scene};
 
 /// Prints what the scene holds.
 pub fn run(args: &SceneArgs) -> Result<(), CliError> {
-    let opened = pipeline::open(&args.scene, &args.assignments)?;
+    let opened = pipeline::open(&args.scene, &args.assignments, 0)?;
     stdio::print(report(&opened.name, &opened.scene).as_bytes())
 }
 

@@ -26,17 +26,19 @@ use crate::load::Texture;
 use crate::math::{Lane, Real, Vec3, WIDTH};
 use crate::sampling::{PixelFilter, SamplerKind};
 
-/// What rays see that hit nothing: a vertical gradient from straight down to straight up.
+/// What rays see that hit nothing: a gradient from straight down to straight up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Background {
     /// Radiance from below.
     pub bottom: [f64; 3],
     /// Radiance from above.
     pub top: [f64; 3],
+    /// Where above is: the camera's up, of length one.
+    pub up: [f64; 3],
 }
 
 impl Background {
-    /// Radiance along unit directions, linear in their height.
+    /// Radiance along unit directions, linear in their height above the horizon.
     #[inline(always)]
     pub fn radiance<L: Lane>(&self, direction: Vec3<L>) -> Vec3<L> {
         let splat = |c: [f64; 3]| Vec3::<L>::splat(c.map(<L::Scalar as Real>::from_f64));
@@ -45,7 +47,7 @@ impl Background {
             return bottom;
         }
         let half = L::constant(0.5);
-        bottom + (splat(self.top) - bottom) * (direction.y * half + half)
+        bottom + (splat(self.top) - bottom) * (direction.dot(splat(self.up)) * half + half)
     }
 }
 

@@ -1,6 +1,6 @@
 //! Secondary rays: mirrored, refracted, scattered; one function a kind of material.
 
-use super::medium::{enter, innermost, leave};
+use super::medium::{enter, found_inside, innermost, leave};
 use super::offset::offset_along;
 use super::queue::{PathLanes, PathQueue, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
@@ -143,7 +143,11 @@ fn dielectric<T: Tier>(
     let least = T::Wide::constant(scene.settings.min_throughput);
     let mut through =
         PathLanes { medium: beyond::<T>(s, paths), ..s.leaving(s.direction, s.weight, Side::Other, paths) };
-    let near = eight(|i| paths.medium[s.path[i] as usize]);
+    let inside = s.from_inside.bits();
+    let near = eight(|i| match (paths.medium[s.path[i] as usize], inside >> i & 1) {
+        (state, 0) => state,
+        (state, _) => found_inside(state, s.materials[i] as u16 + 1),
+    });
     let eta = refraction_index::<T>(worker, &through.medium) / refraction_index::<T>(worker, &near);
     let reflectance = fresnel_dielectric(s.direction.dot(s.shading_normal), eta);
 

@@ -35,7 +35,8 @@ impl MaterialTable {
             plain: None,
         };
         for material in &description.material {
-            let row = table.add(material)?;
+            let texture = material.texture.as_ref().map(|path| table.folder.join(path));
+            let row = table.add(&Material { texture, ..material.clone() })?;
             table.by_name.insert(material.name.clone(), row);
         }
         Ok(table)
@@ -53,7 +54,7 @@ impl MaterialTable {
         }
     }
 
-    /// A new row for a material of the scene or of a mesh file.
+    /// A new row for a material whose texture path is complete, as those of mesh files are.
     pub(super) fn add(&mut self, m: &Material) -> Result<u32, CompileError> {
         if self.rows.len() == MAX_ROWS {
             return Err(CompileError::TooMany { what: "materials", limit: MAX_ROWS });
@@ -74,13 +75,12 @@ impl MaterialTable {
     }
 
     fn texture(&mut self, path: &Path) -> Result<u32, CompileError> {
-        let path = self.folder.join(path);
-        if let Some(&row) = self.texture_of.get(&path) {
+        if let Some(&row) = self.texture_of.get(path) {
             return Ok(row);
         }
         let row = self.textures.len() as u32;
-        self.textures.push(load_texture(&path)?);
-        self.texture_of.insert(path, row);
+        self.textures.push(load_texture(path)?);
+        self.texture_of.insert(path.to_owned(), row);
         Ok(row)
     }
 
