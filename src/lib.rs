@@ -7,6 +7,7 @@ pub mod accel;
 pub mod cli;
 pub mod describe;
 pub mod film;
+pub mod geometry;
 pub mod intersect;
 pub mod load;
 pub mod math;

@@ -2,7 +2,6 @@
 
 mod camera;
 mod compile;
-mod geometry;
 mod light;
 mod material;
 mod memory;
@@ -11,19 +10,17 @@ mod texture;
 
 pub use camera::{Camera, CameraRays, Projection};
 pub use compile::{CompileError, CompileTimes};
-pub use geometry::{Cylinders, Geometry, Group, Instance, NO_MATERIAL, Planes, Spheres, Triangles};
 pub use light::Light;
 pub use material::{MaterialRow, Materials, NO_TEXTURE, Scatter};
 pub use requirements::Requirements;
 pub use texture::sample_texture;
 
-pub(crate) use geometry::{push3, row3};
-
 use crate::accel::Accel;
 use crate::film::Tone;
+use crate::geometry::Geometry;
 use crate::intersect::TierName;
 use crate::load::Texture;
-use crate::math::{Lane, Real, Vec3, WIDTH};
+use crate::math::{Lane, Real, Vec3};
 use crate::sampling::{PixelFilter, SamplerKind};
 
 /// What rays see that hit nothing: a gradient from straight down to straight up.
@@ -97,21 +94,4 @@ pub struct Scene {
     pub requirements: Requirements,
     /// How long compiling took.
     pub times: CompileTimes,
-}
-
-/// The rows of a column named by lanes. Eight neighbours often ask for the same row: then one look-up serves all.
-#[inline(always)]
-pub(crate) fn gather<L: Lane>(column: &[f32], rows: &[u32; WIDTH]) -> L {
-    let value = |row: u32| <L::Scalar as Real>::from_f32(column[row as usize]);
-    if *rows == [rows[0]; WIDTH] {
-        return L::splat(value(rows[0]));
-    }
-    L::from_fn(|i| value(rows[i]))
-}
-
-/// The rows of three columns named by lanes.
-#[inline(always)]
-pub(crate) fn gather3<L: Lane>(columns: &[Vec<f32>; 3], rows: &[u32; WIDTH]) -> Vec3<L> {
-    let [x, y, z] = columns;
-    Vec3::new(gather(x, rows), gather(y, rows), gather(z, rows))
 }

@@ -1,6 +1,7 @@
 //! What a scene needs of the renderer: only that is allocated, visited and run.
 
-use super::{Camera, Geometry, Light, Materials, NO_TEXTURE, Projection, Scatter};
+use super::{Camera, Light, Materials, NO_TEXTURE, Projection, Scatter};
+use crate::geometry::Geometry;
 use crate::intersect::PrimKind;
 
 /// What a compiled scene needs.

@@ -4,9 +4,9 @@ use super::extend::Hits;
 use super::queue::{PathQueue, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
+use crate::geometry::gather3;
 use crate::intersect::Tier;
 use crate::math::{Lane, Vec3, WIDTH, eight};
-use crate::scene::gather3;
 
 /// Adds what missing paths see.
 pub(super) fn background<T: Tier>(

@@ -5,10 +5,11 @@ use super::offset::offset_along;
 use super::queue::{PathLanes, PathQueue, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
+use crate::geometry::gather3;
 use crate::intersect::Tier;
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH, eight};
 use crate::sampling::{ScatterDraw, bounce, child_branch, cosine_hemisphere, to_frame};
-use crate::scene::{Scatter, gather3};
+use crate::scene::Scatter;
 use crate::shading::{fresnel_dielectric, reflect, refract};
 
 /// Eight surfaces of one kind of material.

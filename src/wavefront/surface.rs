@@ -3,9 +3,9 @@
 //! All of it in `f64` and rounded once: a point on a ground sphere of radius 1e6 is then as good as its coordinates, and
 //! the bound that secondary rays are offset by stays a few roundoffs of the point, whatever the primitive's size.
 
+use crate::geometry::{Geometry, gather, gather3};
 use crate::intersect::PrimKind;
 use crate::math::{Lane, Real, Transform, Vec3, WIDTH, eight, gamma_of};
-use crate::scene::{Geometry, gather, gather3};
 
 /// Hits as lanes.
 #[derive(Clone, Copy)]

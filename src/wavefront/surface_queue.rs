@@ -7,9 +7,10 @@ use super::queue::{
     Column3, PathQueue, column, compress, compress_words, gather, list_lanes, set_bits, words,
 };
 use super::surface::{HitLanes, SurfaceLanes, evaluate};
+use crate::geometry::{NO_MATERIAL, gather3};
 use crate::intersect::PrimId;
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
-use crate::scene::{NO_MATERIAL, NO_TEXTURE, Scatter, Scene, gather3, sample_texture};
+use crate::scene::{NO_TEXTURE, Scatter, Scene, sample_texture};
 
 /// One row for each path that hit something, in the order of primitive kinds.
 ///
