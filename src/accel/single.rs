@@ -80,7 +80,8 @@ fn push_children(
     let enter = enter.to_array();
     for i in (0..WIDTH).rev() {
         let slot = i ^ octant;
-        if meets >> slot & 1 != 0 {
+        // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
+        if meets >> slot & 1 != 0 && !node.child[slot].is_empty() {
             stack.push(Entry { near: enter[slot], child: node.child[slot] });
         }
     }
