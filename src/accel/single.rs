@@ -53,7 +53,8 @@ impl Descend for PrimitivesByRay {
         }
         let enter = enter.to_array();
         for slot in (0..WIDTH).rev().map(|i| i ^ octant.bits) {
-            if meets >> slot & 1 != 0 {
+            // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
+            if meets >> slot & 1 != 0 && !node.child[slot].is_empty() {
                 stack.push(Entry { near: enter[slot], child: node.child[slot] });
             }
         }
