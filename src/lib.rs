@@ -79,8 +79,9 @@
 //! |---|---|
 //! | [`describe`] | scene files and built-in names into a [`describe::SceneDescription`], exactly as written |
 //! | [`load`] | OBJ, PLY, STL and procedural meshes into a [`load::Mesh`] |
-//! | [`scene`] | descriptions and meshes into columns, and into what they require of the renderer |
+//! | [`geometry`] | primitives into columns, groups and instances |
 //! | [`accel`] | columns into a tree, rays into hits |
+//! | [`scene`] | descriptions and meshes into a scene, and into what it requires of the renderer |
 //! | [`intersect`] | one ray or eight and a primitive into a hit: each test written once for all widths |
 //! | [`shading`] | a hit's material and lights into radiance and further rays |
 //! | [`wavefront`] | a scene into a film: generate, extend, shade, connect, scatter |

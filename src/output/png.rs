@@ -13,7 +13,7 @@ pub(super) fn write(film: &Film, tone: Tone, writer: &mut dyn Write) -> io::Resu
     let picture = &developed.picture;
     // Encoded in memory: the encoder drops the cause of a failed write, and ignores one at the end.
     let mut bytes = Vec::new();
-    PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Adaptive)
+    PngEncoder::new_with_quality(&mut bytes, CompressionType::Fast, FilterType::Paeth)
         .write_image(&picture.bytes, picture.width, picture.height, ExtendedColorType::Rgb8)
         .map_err(io::Error::other)?;
     writer.write_all(&bytes)?;
