@@ -26,13 +26,15 @@ use crate::load::Texture;
 use crate::math::{Lane, Real, Vec3, WIDTH};
 use crate::sampling::{PixelFilter, SamplerKind};
 
-/// What rays see that hit nothing: a vertical gradient from straight down to straight up.
+/// What rays see that hit nothing: a gradient from straight down to straight up.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Background {
     /// Radiance from below.
     pub bottom: [f64; 3],
     /// Radiance from above.
     pub top: [f64; 3],
+    /// Which way is up, of length one: the camera's `up` as written.
+    pub up: [f64; 3],
 }
 
 impl Background {
@@ -45,7 +47,7 @@ impl Background {
             return bottom;
         }
         let half = L::constant(0.5);
-        bottom + (splat(self.top) - bottom) * (direction.y * half + half)
+        bottom + (splat(self.top) - bottom) * (direction.dot(splat(self.up)) * half + half)
     }
 }
 
@@ -93,6 +95,8 @@ pub struct Scene {
     pub settings: RenderSettings,
     /// What of the renderer this needs.
     pub requirements: Requirements,
+    /// Triangles left out because they have no area.
+    pub skipped_triangles: usize,
     /// How long compiling took.
     pub times: CompileTimes,
 }
