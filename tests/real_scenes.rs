@@ -59,6 +59,9 @@ fov_deg = 70
 [[light.point]]
 position = [0, 8, 0]
 intensity = 60
+[[light.point]]
+position = [-11, 3.6, 0.2]
+intensity = 20
 ";
     let Some(scene) = with_mesh("sponza/sponza.obj", &format!("{PINK}{view}")) else { return };
     let film = film(&scene);
@@ -76,8 +79,8 @@ fn living_room() {
     let view = "
 [camera]
 position = [5.105184, 0.731065, -2.317890]
-look_at = [4.154, 0.731, -2.006]
-fov_deg = 55
+look_at = [4.143388, 0.805472, -2.054414]
+fov_deg = 58.7155
 [[light.point]]
 position = [2.5, 2.4, -2]
 intensity = 8
