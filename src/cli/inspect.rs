@@ -39,6 +39,9 @@ fn holds(scene: &Scene) -> Vec<(String, String)> {
     let mut rows: Vec<(String, String)> =
         PrimKind::ALL.iter().map(|&kind| (format!("{}s", kind.name()), g.count(kind).to_string())).collect();
     let mut row = |name: &str, value: String| rows.push((name.to_owned(), value));
+    if scene.skipped_triangles > 0 {
+        row("skipped", format!("{} triangles without area", scene.skipped_triangles));
+    }
     row("instances", format!("{} of {} groups", g.instances.len(), g.groups.len().saturating_sub(1)));
     row("materials", scene.materials.len().to_string());
     row("textures", scene.textures.len().to_string());

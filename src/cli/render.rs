@@ -74,6 +74,7 @@ fn write(
     Ok(Summary {
         scene: scene.name.clone(),
         size: [film.width, film.height],
+        skipped_triangles: scene.scene.skipped_triangles,
         report,
         load_time: scene.scene.times.load,
         build_time: scene.scene.times.build,

@@ -16,6 +16,8 @@ pub(super) struct Summary {
     pub(super) scene: String,
     /// Width and height in pixels.
     pub(super) size: [u32; 2],
+    /// Triangles left out because they have no area.
+    pub(super) skipped_triangles: usize,
     /// Samples, rays, threads and time of the render itself.
     pub(super) report: RenderReport,
     /// Reading and checking the scene.
@@ -41,6 +43,7 @@ impl Summary {
             "scene": self.scene,
             "width": self.size[0],
             "height": self.size[1],
+            "skipped_triangles": self.skipped_triangles,
             "samples": report.samples,
             "nan_samples": report.nan_samples,
             "nan_values_written_as_zero": self.written.nan_values,
@@ -95,6 +98,9 @@ impl fmt::Display for Summary {
         // Always said, so that a zero is known and not only missing.
         let (samples, values) = (report.nan_samples, self.written.nan_values);
         writeln!(f, "checks   {samples} samples were not a number, {values} values written as 0 for it")?;
+        if self.skipped_triangles > 0 {
+            writeln!(f, "skipped  {} triangles without area", human::count(self.skipped_triangles as u64))?;
+        }
         write!(f, "picture  {}, {}", self.output, human::bytes(self.written.size_bytes))
     }
 }
@@ -109,6 +115,7 @@ mod tests {
         Summary {
             scene: "seed".into(),
             size: [640, 480],
+            skipped_triangles: 0,
             report: RenderReport {
                 rays,
                 samples: 1_228_800,

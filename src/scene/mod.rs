@@ -30,7 +30,7 @@ pub struct Background {
     pub bottom: [f64; 3],
     /// Radiance from above.
     pub top: [f64; 3],
-    /// Where above is: the camera's up, of length one.
+    /// Which way is up, of length one: the camera's `up` as written.
     pub up: [f64; 3],
 }
 
@@ -92,6 +92,8 @@ pub struct Scene {
     pub settings: RenderSettings,
     /// What of the renderer this needs.
     pub requirements: Requirements,
+    /// Triangles left out because they have no area.
+    pub skipped_triangles: usize,
     /// How long compiling took.
     pub times: CompileTimes,
 }

@@ -69,7 +69,7 @@ impl Scene {
         let start = Instant::now();
         description.check().map_err(CompileError::Description)?;
         let mut table = MaterialTable::new(description);
-        let geometry = World::compile(description, &mut table)?;
+        let (geometry, skipped_triangles) = World::compile(description, &mut table)?;
         let settings = RenderSettings::of(description);
         let camera = view::camera(description)?;
         let lights = view::lights(description);
@@ -91,6 +91,7 @@ impl Scene {
             background,
             settings,
             requirements,
+            skipped_triangles,
             times,
         })
     }

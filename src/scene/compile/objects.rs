@@ -5,10 +5,11 @@ use std::collections::HashMap;
 use super::CompileError;
 use super::materials::MaterialTable;
 use crate::describe::{self, Objects, SceneDescription, Target};
-use crate::geometry::{Geometry, Group, Instance, NO_MATERIAL, push3};
+use crate::geometry::{Geometry, Group, Instance, NO_MATERIAL, push3, row3};
 use crate::intersect::PrimId;
 use crate::load::{self, load_described};
 use crate::math::Transform;
+use glam::DVec3;
 
 /// A group while it is compiled: its rows, and what it shows of other groups.
 #[derive(Default)]
@@ -31,14 +32,15 @@ pub(super) struct World<'a> {
     geometry: Geometry,
     parts: Vec<Part>,
     part_of: HashMap<Key, usize>,
+    skipped_triangles: usize,
 }
 
 impl<'a> World<'a> {
-    /// All objects of a description as columns.
+    /// All objects of a description as columns, and how many triangles were left out because they have no area.
     pub(super) fn compile(
         description: &'a SceneDescription,
         table: &'a mut MaterialTable,
-    ) -> Result<Geometry, CompileError> {
+    ) -> Result<(Geometry, usize), CompileError> {
         let mut world = World {
             description,
             table,
@@ -46,11 +48,13 @@ impl<'a> World<'a> {
             // Part 0 is the world; its rows are filled last but its number is first.
             parts: vec![Part::default()],
             part_of: HashMap::new(),
+            skipped_triangles: 0,
         };
         let top = world.part(description.objects())?;
         world.parts[0] = top;
         world.planes()?;
-        Ok(world.flatten())
+        let skipped = world.skipped_triangles;
+        Ok((world.flatten(), skipped))
     }
 
     /// Compiles objects to a part. Parts that it shows are compiled first, so that its own rows are contiguous.
@@ -238,10 +242,15 @@ impl<'a> World<'a> {
             // Vertices that no triangle uses may be anything.
             push3(&mut t.position, moved.map(|x| x as f32));
         }
+        self.skipped_triangles += mesh.report.degenerate;
         let mirrored = transform.determinant() < 0.0;
         for (i, corners) in mesh.triangles.iter().enumerate() {
             let [a, b, c] = corners.map(|v| first as u32 + v);
             let turned = if mirrored { [a, c, b] } else { [a, b, c] };
+            if has_no_area(turned.map(|v| row3(&t.position, v as usize))) {
+                self.skipped_triangles += 1;
+                continue;
+            }
             for (column, v) in t.vertex.iter_mut().zip(turned) {
                 column.push(v);
             }
@@ -321,6 +330,12 @@ fn uvs(t: &mut crate::geometry::Triangles, mesh: &load::Mesh, first: usize) {
         column.extend(mesh.uvs.iter().map(|uv| uv[k]));
         column.resize(vertices, 0.0);
     }
+}
+
+/// True where the corners lie on a line, or on one point: no ray hits such a triangle, and it has no normal.
+fn has_no_area([a, b, c]: [[f32; 3]; 3]) -> bool {
+    let [a, b, c] = [a, b, c].map(|p| DVec3::from(p.map(f64::from)));
+    (b - a).cross(c - a) == DVec3::ZERO
 }
 
 fn to_f32<const N: usize>(points: &[[f64; 3]; N]) -> Vec<[f32; 3]> {

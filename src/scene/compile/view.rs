@@ -83,8 +83,7 @@ fn unit(v: DVec3) -> [f32; 3] {
 impl Background {
     pub(super) fn of(description: &SceneDescription) -> Self {
         let [bottom, top] = description.background.bottom_and_top();
-        let up = DVec3::from(description.camera.up).normalize().into();
-        Self { bottom, top, up }
+        Self { bottom, top, up: DVec3::from(description.camera.up).normalize().into() }
     }
 }
 
