@@ -1,8 +1,10 @@
 //! From what the user wrote to columns: the guarded border, past which nothing needs checking.
 
 mod materials;
-mod objects;
+mod mesh;
+mod rows;
 mod view;
+mod world;
 
 use std::time::{Duration, Instant};
 
@@ -12,7 +14,7 @@ use crate::describe::{Fault, SceneDescription};
 use crate::load::LoadError;
 use crate::math::TransformError;
 use materials::MaterialTable;
-use objects::World;
+use world::World;
 
 /// Why a description cannot become a scene.
 #[derive(Debug, thiserror::Error)]

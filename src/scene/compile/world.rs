@@ -1,0 +1,227 @@
+//! Groups as ranges of rows, nested instances flattened to two levels.
+
+use std::collections::HashMap;
+
+use super::CompileError;
+use super::materials::MaterialTable;
+use super::rows::{is_bent, rows};
+use crate::describe::{self, Objects, SceneDescription, Target};
+use crate::geometry::{Geometry, Group, Instance, NO_MATERIAL};
+
+/// Most instances of a scene: about a gigabyte of transforms.
+const MAX_INSTANCES: usize = 1 << 22;
+
+const NOTHING: Objects<'static> =
+    Objects { spheres: &[], cylinders: &[], triangles: &[], quads: &[], meshes: &[], instances: &[] };
+
+/// A group while it is compiled: its rows, and what it shows of other groups.
+#[derive(Default)]
+struct Part {
+    rows: Group,
+    shows: Vec<Instance>,
+}
+
+impl Part {
+    fn is_empty(&self) -> bool {
+        let Group { triangles, spheres, cylinders } = &self.rows;
+        triangles.is_empty() && spheres.is_empty() && cylinders.is_empty()
+    }
+}
+
+/// What identifies a part: a group by its number, a named mesh by its name.
+#[derive(Clone, PartialEq, Eq, Hash)]
+enum Key {
+    Group(usize),
+    Mesh(String),
+}
+
+/// The geometry so far.
+pub(super) struct World<'a> {
+    pub(super) description: &'a SceneDescription,
+    pub(super) table: &'a mut MaterialTable,
+    pub(super) geometry: Geometry,
+    parts: Vec<Part>,
+    part_of: HashMap<Key, usize>,
+    pub(super) skipped_triangles: usize,
+}
+
+impl<'a> World<'a> {
+    /// All objects of a description as columns, and how many triangles were left out because they have no area.
+    pub(super) fn compile(
+        description: &'a SceneDescription,
+        table: &'a mut MaterialTable,
+    ) -> Result<(Geometry, usize), CompileError> {
+        let mut world = World {
+            description,
+            table,
+            geometry: Geometry::default(),
+            // Part 0 is the world; its rows are filled last but its number is first.
+            parts: vec![Part::default()],
+            part_of: HashMap::new(),
+            skipped_triangles: 0,
+        };
+        let top = world.part(description.objects())?;
+        world.parts[0] = top;
+        world.planes()?;
+        let skipped = world.skipped_triangles;
+        Ok((world.flatten()?, skipped))
+    }
+
+    /// Compiles objects to a part. Parts that it shows are compiled first, so that its own rows are contiguous.
+    fn part(&mut self, objects: Objects<'_>) -> Result<Part, CompileError> {
+        let mut shows = self.instances(objects.instances)?;
+        self.bent(objects, &mut shows)?;
+        let mut own_meshes = Vec::new();
+        for mesh in objects.meshes {
+            match mesh.name.as_deref().filter(|name| self.is_shown(name)) {
+                Some(name) => shows.push(self.shown_mesh(name, mesh)?),
+                None => own_meshes.push(mesh),
+            }
+        }
+        let start = self.row_counts();
+        self.own_rows(objects)?;
+        for mesh in own_meshes {
+            self.described_mesh(mesh)?;
+        }
+        let end = self.row_counts();
+        let [triangles, spheres, cylinders] = std::array::from_fn(|k| start[k]..end[k]);
+        Ok(Part { rows: Group { triangles, spheres, cylinders }, shows })
+    }
+
+    /// Objects under transforms that their columns cannot hold (ellipsoids, elliptic cylinders) become instances of parts
+    /// of their own.
+    fn bent(&mut self, objects: Objects<'_>, shows: &mut Vec<Instance>) -> Result<(), CompileError> {
+        for s in objects.spheres.iter().filter(|s| is_bent(&s.transform)) {
+            let straight = describe::Sphere { transform: Default::default(), ..s.clone() };
+            shows.push(self.alone(Objects { spheres: &[straight], ..NOTHING }, &s.transform, "sphere")?);
+        }
+        for c in objects.cylinders.iter().filter(|c| is_bent(&c.transform)) {
+            let straight = describe::Cylinder { transform: Default::default(), ..c.clone() };
+            let objects = Objects { cylinders: &[straight], ..NOTHING };
+            shows.push(self.alone(objects, &c.transform, "cylinder")?);
+        }
+        Ok(())
+    }
+
+    /// Everything but meshes and what is bent, as rows of the columns.
+    fn own_rows(&mut self, objects: Objects<'_>) -> Result<(), CompileError> {
+        for s in objects.spheres.iter().filter(|s| !is_bent(&s.transform)) {
+            self.sphere(s)?;
+        }
+        for c in objects.cylinders.iter().filter(|c| !is_bent(&c.transform)) {
+            self.cylinder(c)?;
+        }
+        for t in objects.triangles {
+            self.polygon(&t.vertices, t.material.as_deref(), &t.transform, "triangle")?;
+        }
+        for q in objects.quads {
+            self.polygon(&q.corners(), q.material.as_deref(), &q.transform, "quad")?;
+        }
+        Ok(())
+    }
+
+    fn row_counts(&self) -> [usize; 3] {
+        let g = &self.geometry;
+        [g.triangles.len(), g.spheres.len(), g.cylinders.len()]
+    }
+
+    /// True if any instance shows the mesh of this name.
+    fn is_shown(&self, name: &str) -> bool {
+        let d = self.description;
+        let mut all = d.instance.iter().chain(d.group.iter().flat_map(|g| &g.instance));
+        all.any(|i| i.of == name)
+    }
+
+    fn instances(&mut self, instances: &[describe::Instance]) -> Result<Vec<Instance>, CompileError> {
+        let mut shows = Vec::with_capacity(instances.len());
+        for i in instances {
+            let group = self.target(&i.of)?;
+            let material = match &i.material {
+                Some(name) => self.table.row(Some(name))?,
+                None => NO_MATERIAL,
+            };
+            let to_world = rows(&i.transform, &format!("instance of `{}`", i.of))?;
+            shows.push(Instance { group, to_world, material });
+        }
+        Ok(shows)
+    }
+
+    /// The part that an instance names, compiled on first use. The description has no cycles: it was checked.
+    fn target(&mut self, name: &str) -> Result<usize, CompileError> {
+        match self.description.target(name) {
+            Some(Target::Group(number, group)) => {
+                self.cached(Key::Group(number), |world| world.part(group.objects()))
+            }
+            Some(Target::Mesh(mesh)) => self.mesh_part(name, mesh),
+            None => unreachable!("the description was checked: `{name}` is a group or a mesh"),
+        }
+    }
+
+    fn mesh_part(&mut self, name: &str, mesh: &describe::Mesh) -> Result<usize, CompileError> {
+        let plain = describe::Mesh { name: None, transform: Default::default(), ..mesh.clone() };
+        let key = Key::Mesh(name.to_owned());
+        self.cached(key, |world| world.part(Objects { meshes: &[plain], ..NOTHING }))
+    }
+
+    fn cached(
+        &mut self,
+        key: Key,
+        make: impl FnOnce(&mut Self) -> Result<Part, CompileError>,
+    ) -> Result<usize, CompileError> {
+        if let Some(&part) = self.part_of.get(&key) {
+            return Ok(part);
+        }
+        let part = make(self)?;
+        let number = self.add(part);
+        self.part_of.insert(key, number);
+        Ok(number)
+    }
+
+    fn add(&mut self, part: Part) -> usize {
+        self.parts.push(part);
+        self.parts.len() - 1
+    }
+
+    /// A mesh that instances show, in its own place: one more instance.
+    fn shown_mesh(&mut self, name: &str, mesh: &describe::Mesh) -> Result<Instance, CompileError> {
+        let group = self.mesh_part(name, mesh)?;
+        Ok(Instance { group, to_world: rows(&mesh.transform, name)?, material: NO_MATERIAL })
+    }
+
+    /// Objects in a part of their own under a transform that their columns cannot hold: ellipsoids, elliptic cylinders.
+    fn alone(
+        &mut self,
+        objects: Objects<'_>,
+        transform: &describe::Transform,
+        what: &str,
+    ) -> Result<Instance, CompileError> {
+        let part = self.part(objects)?;
+        Ok(Instance { group: self.add(part), to_world: rows(transform, what)?, material: NO_MATERIAL })
+    }
+
+    /// Two levels: every instance, however deep, becomes one of the world, its transforms composed.
+    fn flatten(mut self) -> Result<Geometry, CompileError> {
+        let parts = std::mem::take(&mut self.parts);
+        self.geometry.groups = parts.iter().map(|p| p.rows.clone()).collect();
+        let mut waiting: Vec<Instance> = parts[0].shows.iter().rev().cloned().collect();
+        while let Some(instance) = waiting.pop() {
+            for inner in parts[instance.group].shows.iter().rev() {
+                waiting.push(seen_through(&instance, inner));
+            }
+            if !parts[instance.group].is_empty() {
+                self.geometry.instances.push(instance);
+            }
+            // Groups of groups multiply: ten levels of ten are 10^10.
+            if self.geometry.instances.len() + waiting.len() > MAX_INSTANCES {
+                return Err(CompileError::TooMany { what: "instances", limit: MAX_INSTANCES });
+            }
+        }
+        Ok(self.geometry)
+    }
+}
+
+/// An instance in a group as an instance of the world, through an instance of that group; the outer material wins.
+fn seen_through(outer: &Instance, inner: &Instance) -> Instance {
+    let material = if outer.material == NO_MATERIAL { inner.material } else { outer.material };
+    Instance { group: inner.group, to_world: inner.to_world.then(&outer.to_world), material }
+}
