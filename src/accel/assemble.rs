@@ -3,9 +3,9 @@
 use super::block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
 use super::build::{BuildPrimitive, KINDS, MAX_DEPTH, Tree, build};
 use super::{Accel, PlacedTree, TreeRoot};
+use crate::geometry::{Geometry, Group, Instance, row3};
 use crate::intersect::PrimKind;
 use crate::math::{Aabb, WIDTH};
-use crate::scene::{Geometry, Group, Instance, row3};
 use rayon::prelude::*;
 
 /// A tree with what its primitive numbers mean.

@@ -1,8 +1,8 @@
 //! Leaves: up to eight primitives of a kind, stored so that a test loads them as lanes.
 
+use crate::geometry::Geometry;
 use crate::intersect::{PrimId, PrimKind, cylinder, sphere};
 use crate::math::{Lane, Mask, Vec3, WIDTH};
-use crate::scene::Geometry;
 
 /// How a leaf is walked: which primitive stands in which lane at a step.
 pub trait Walk: Copy {

@@ -4,9 +4,9 @@
 
 use super::Accel;
 use super::query::{Closest, Query};
+use crate::geometry::{Geometry, Group, row3};
 use crate::intersect::{Curved, PrimId, PrimKind, RayLanes, Tier, TriangleTest, cylinder, plane, sphere};
 use crate::math::{Real, Vec3};
-use crate::scene::{Geometry, Group, row3};
 
 /// The nearest hit of a ray among all primitives: `(t, u, v, prim, instance)`.
 pub fn closest<T: Tier>(

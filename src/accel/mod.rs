@@ -4,11 +4,15 @@ mod assemble;
 pub mod block;
 pub mod brute;
 pub mod build;
+mod descend;
 mod leaf;
 pub mod node;
 mod packet;
 pub mod query;
+mod ray_scene;
 mod single;
+#[cfg(test)]
+mod tests;
 mod traversal;
 pub mod validate;
 
@@ -20,6 +24,7 @@ use crate::math::{Aabb, Lane, Transform, Vec3};
 use leaf::PreparedRays;
 use query::Query;
 
+pub use ray_scene::{Primitive, RayScene, RaySceneBuilder, RaySceneError};
 pub use traversal::{Hint, Traversal};
 
 /// Trees of all groups of a scene, and their leaves, packed.

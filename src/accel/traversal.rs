@@ -1,5 +1,7 @@
 //! The door to the tree: eight rays of a tier, together or one by one.
 
+use super::block::{PrimitivesByRay, RaysByPrimitive};
+use super::descend::{Octant, descend};
 use super::query::{AnyHit, Closest, Query};
 use super::{Accel, leaf::PreparedRays, packet, single};
 use crate::intersect::aabb::CullRay;
@@ -43,7 +45,13 @@ impl<'a> Traversal<'a> {
         self.ask_planes::<T, _>(ray, &mut query);
         let rays = PreparedRays::<T>::new(*ray, self.accel.world.scale);
         if self.together(&rays.cull, hint) {
-            packet::traverse(self.accel, self.accel.world.node, &rays, &mut query, &mut self.packet_stack);
+            descend::<T, RaysByPrimitive, _>(
+                self.accel,
+                self.accel.world.node,
+                &rays,
+                &mut query,
+                &mut self.packet_stack,
+            );
             return query;
         }
         let after_planes = query;
@@ -64,7 +72,13 @@ impl<'a> Traversal<'a> {
     ) -> Closest<T::Wide> {
         let rays = self.prepare_lane::<T>(ray, lane);
         let mut query = start.splat_lane(lane);
-        single::traverse(self.accel, self.accel.world.node, &rays, &mut query, &mut self.single_stack);
+        descend::<T, PrimitivesByRay, _>(
+            self.accel,
+            self.accel.world.node,
+            &rays,
+            &mut query,
+            &mut self.single_stack,
+        );
         query
     }
 
@@ -75,7 +89,13 @@ impl<'a> Traversal<'a> {
         self.ask_planes::<T, _>(ray, &mut query);
         let rays = PreparedRays::<T>::new(*ray, self.accel.world.scale);
         if self.together(&rays.cull, hint) {
-            packet::traverse(self.accel, self.accel.world.node, &rays, &mut query, &mut self.packet_stack);
+            descend::<T, RaysByPrimitive, _>(
+                self.accel,
+                self.accel.world.node,
+                &rays,
+                &mut query,
+                &mut self.packet_stack,
+            );
             return query.hits();
         }
         let after_planes = query.limit();
@@ -87,7 +107,13 @@ impl<'a> Traversal<'a> {
     fn any_of_lane<T: Tier>(&mut self, ray: &RayLanes<T::Wide>, lane: usize) -> bool {
         let rays = self.prepare_lane::<T>(ray, lane);
         let mut query = AnyHit::new(rays.ray.t_max);
-        single::traverse(self.accel, self.accel.world.node, &rays, &mut query, &mut self.single_stack);
+        descend::<T, PrimitivesByRay, _>(
+            self.accel,
+            self.accel.world.node,
+            &rays,
+            &mut query,
+            &mut self.single_stack,
+        );
         query.hits() != 0
     }
 
@@ -102,10 +128,7 @@ impl<'a> Traversal<'a> {
         match hint {
             Hint::Coherent => true,
             Hint::Incoherent => false,
-            Hint::Auto => {
-                self.accel.nodes.len() <= SMALL_TREE
-                    || cull.backward().iter().all(|m| matches!(m.bits(), 0 | 0xff))
-            }
+            Hint::Auto => self.accel.nodes.len() <= SMALL_TREE || Octant::of(cull).shared,
         }
     }
 

@@ -10,7 +10,7 @@ use crate::scene::{Requirements, Scatter, Scene};
 
 /// Prints what the scene holds.
 pub fn run(args: &SceneArgs) -> Result<(), CliError> {
-    let opened = pipeline::open(&args.scene, &args.assignments)?;
+    let opened = pipeline::open(&args.scene, &args.assignments, 0)?;
     stdio::print(report(&opened.name, &opened.scene).as_bytes())
 }
 
@@ -82,6 +82,7 @@ fn stages(r: &Requirements) -> Vec<(String, bool)> {
     stage("extend: instances", r.instances);
     stage("shade: interpolated normals", r.shading_normals);
     stage("shade: textures", r.textures);
+    stage("shade: ambient light and emission", r.glow);
     stage("connect: shadow rays", r.lights);
     stage("connect: highlights", r.highlights);
     stage("connect: fractional shininess", r.fractional_shininess);

@@ -22,13 +22,20 @@ pub(super) struct Opened {
     pub(super) scene: Scene,
 }
 
-/// Reads the scene, applies `assignments` in order, compiles it.
+/// Reads the scene, applies `assignments` in order, compiles it with as many threads (0: all that there are).
 ///
 /// **Errors**: exit 3 for a bad scene or asset, 2 for a bad assignment.
-pub(super) fn open(source: &SceneSource, assignments: &[(String, String)]) -> Result<Opened, CliError> {
+pub(super) fn open(
+    source: &SceneSource,
+    assignments: &[(String, String)],
+    threads: usize,
+) -> Result<Opened, CliError> {
     let sets: Vec<String> = assignments.iter().map(|(key, value)| format!("{key}={value}")).collect();
     let description = describe(source, &sets)?;
-    let scene = Scene::compile(&description).map_err(|error| CliError::of(Exit::Scene, error))?;
+    let workers = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    let workers = workers.map_err(|error| CliError::of(Exit::Failed, error))?;
+    let scene = workers.install(|| Scene::compile(&description));
+    let scene = scene.map_err(|error| CliError::of(Exit::Scene, error))?;
     Ok(Opened { name: source.to_string(), scene })
 }
 

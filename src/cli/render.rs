@@ -33,7 +33,7 @@ fn picture(args: &RenderArgs, reporter: &Arc<Reporter>) -> Result<Summary, CliEr
         reporter.warn(&advice);
     }
     let interrupt = Interrupt::install(end_at_once(reporter, &destination))?;
-    let scene = pipeline::open(&args.scene.scene, &args.assignments())?;
+    let scene = pipeline::open(&args.scene.scene, &args.assignments(), usize::from(args.threads))?;
     let (film, report) = render(args, &scene, reporter, &interrupt, &destination)?;
     write(&scene, &film, report, &interrupt, &destination)
 }

@@ -48,7 +48,6 @@ fn only_settings(set: &str) -> bool {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::describe::builtin;
 
     #[test]

@@ -10,7 +10,7 @@ pub mod plane;
 mod ray;
 pub mod sphere;
 #[cfg(test)]
-mod testing;
+pub(crate) mod testing;
 mod tier;
 pub mod triangle;
 

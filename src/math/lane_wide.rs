@@ -4,18 +4,9 @@ use std::ops::{BitAnd, BitOr, BitXor, Not};
 
 use wide::{f32x8, f64x8, i32x8, u32x8, u64x8};
 
-use super::{BitLane, Lane, Mask, WIDTH};
+use super::{BitLane, Lane, Mask, WIDTH, eight};
 
 const LANE_BITS: [u32; WIDTH] = [1, 2, 4, 8, 16, 32, 64, 128];
-
-/// An array from a function of the lane number, written out: `array::from_fn` and `map` leave the compiler loops over
-/// guards to take apart, which costs minutes over all kernels.
-macro_rules! eight {
-    ($f:expr) => {{
-        let mut f = $f;
-        [f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)]
-    }};
-}
 
 impl BitLane for u32x8 {
     #[inline(always)]
@@ -24,7 +15,7 @@ impl BitLane for u32x8 {
     }
     #[inline(always)]
     fn from_fn(words: impl FnMut(usize) -> u32) -> Self {
-        u32x8::new(eight!(words))
+        u32x8::new(eight(words))
     }
     #[inline(always)]
     fn get(self, i: usize) -> u32 {
@@ -132,7 +123,7 @@ macro_rules! wide_lane {
         }
         #[inline(always)]
         fn from_fn(values: impl FnMut(usize) -> $s) -> Self {
-            $v::new(eight!(values))
+            $v::new(eight(values))
         }
         #[inline(always)]
         fn get(self, i: usize) -> $s {
@@ -209,12 +200,12 @@ impl Lane for f32x8 {
     #[inline(always)]
     fn widen(self) -> f64x8 {
         let x = self.to_array();
-        f64x8::new(eight!(|i: usize| f64::from(x[i])))
+        f64x8::new(eight(|i: usize| f64::from(x[i])))
     }
     #[inline(always)]
     fn narrow(value: f64x8) -> Self {
         let x = value.to_array();
-        f32x8::new(eight!(|i: usize| x[i] as f32))
+        f32x8::new(eight(|i: usize| x[i] as f32))
     }
     #[inline(always)]
     fn narrow_mask(mask: Mask64) -> Mask32 {
@@ -235,7 +226,7 @@ impl Lane for f64x8 {
     }
     #[inline(always)]
     fn load_f32(values: &[f32; 8]) -> Self {
-        f64x8::new(eight!(|i: usize| f64::from(values[i])))
+        f64x8::new(eight(|i: usize| f64::from(values[i])))
     }
     #[inline(always)]
     fn from_bits(words: u32x8) -> Self {

@@ -18,6 +18,13 @@ pub use vec3::{Vec3, fused_cross, fused_dot};
 /// Lanes in one packet: the width of `f32x8`.
 pub const WIDTH: usize = 8;
 
+/// An array from a function of the lane number, written out: in hot loops `array::from_fn` and `map` leave calls and loops
+/// behind that the optimiser does not always take apart.
+#[inline(always)]
+pub(crate) fn eight<T>(mut f: impl FnMut(usize) -> T) -> [T; WIDTH] {
+    [f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)]
+}
+
 /// Bound on the relative error of `n` roundings: `n u / (1 - n u)` with the unit roundoff `u` of `f32`.
 ///
 /// **Source:** Higham, Accuracy and Stability of Numerical Algorithms, 2002, lemma 3.1; the name is that of

@@ -1,5 +1,7 @@
 //! Materials as columns.
 
+use crate::geometry::push3;
+
 /// What a surface does with rays beyond the light it gets directly.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 #[repr(u8)]
@@ -79,10 +81,10 @@ impl Materials {
     }
     /// Appends a row and gives its number.
     pub fn push(&mut self, row: MaterialRow) -> u32 {
-        super::push3(&mut self.glow, row.glow);
-        super::push3(&mut self.diffuse, row.diffuse);
-        super::push3(&mut self.specular, row.specular);
-        super::push3(&mut self.tint, row.tint);
+        push3(&mut self.glow, row.glow);
+        push3(&mut self.diffuse, row.diffuse);
+        push3(&mut self.specular, row.specular);
+        push3(&mut self.tint, row.tint);
         self.shininess.push(row.shininess);
         self.ior.push(row.ior);
         self.scatter.push(row.scatter);

@@ -2,7 +2,6 @@
 
 mod camera;
 mod compile;
-mod geometry;
 mod light;
 mod material;
 mod memory;
@@ -11,19 +10,17 @@ mod texture;
 
 pub use camera::{Camera, CameraRays, Projection};
 pub use compile::{CompileError, CompileTimes};
-pub use geometry::{Cylinders, Geometry, Group, Instance, NO_MATERIAL, Planes, Spheres, Triangles};
 pub use light::Light;
 pub use material::{MaterialRow, Materials, NO_TEXTURE, Scatter};
 pub use requirements::Requirements;
 pub use texture::sample_texture;
 
-pub(crate) use geometry::{push3, row3};
-
 use crate::accel::Accel;
 use crate::film::Tone;
+use crate::geometry::Geometry;
 use crate::intersect::TierName;
 use crate::load::Texture;
-use crate::math::{Lane, Real, Vec3, WIDTH};
+use crate::math::{Lane, Real, Vec3};
 use crate::sampling::{PixelFilter, SamplerKind};
 
 /// What rays see that hit nothing: a gradient from straight down to straight up.
@@ -33,12 +30,12 @@ pub struct Background {
     pub bottom: [f64; 3],
     /// Radiance from above.
     pub top: [f64; 3],
-    /// Which way is up, of length one: the camera's `up` as written.
+    /// Where above is: the camera's up, of length one.
     pub up: [f64; 3],
 }
 
 impl Background {
-    /// Radiance along unit directions, linear in their height.
+    /// Radiance along unit directions, linear in their height above the horizon.
     #[inline(always)]
     pub fn radiance<L: Lane>(&self, direction: Vec3<L>) -> Vec3<L> {
         let splat = |c: [f64; 3]| Vec3::<L>::splat(c.map(<L::Scalar as Real>::from_f64));
@@ -99,21 +96,4 @@ pub struct Scene {
     pub skipped_triangles: usize,
     /// How long compiling took.
     pub times: CompileTimes,
-}
-
-/// The rows of a column named by lanes. Eight neighbours often ask for the same row: then one look-up serves all.
-#[inline(always)]
-pub(crate) fn gather<L: Lane>(column: &[f32], rows: &[u32; WIDTH]) -> L {
-    let value = |row: u32| <L::Scalar as Real>::from_f32(column[row as usize]);
-    if *rows == [rows[0]; WIDTH] {
-        return L::splat(value(rows[0]));
-    }
-    L::from_fn(|i| value(rows[i]))
-}
-
-/// The rows of three columns named by lanes.
-#[inline(always)]
-pub(crate) fn gather3<L: Lane>(columns: &[Vec<f32>; 3], rows: &[u32; WIDTH]) -> Vec3<L> {
-    let [x, y, z] = columns;
-    Vec3::new(gather(x, rows), gather(y, rows), gather(z, rows))
 }

@@ -1,6 +1,7 @@
 //! What a scene needs of the renderer: only that is allocated, visited and run.
 
-use super::{Camera, Geometry, Light, Materials, NO_TEXTURE, Projection, Scatter};
+use super::{Camera, Light, Materials, NO_TEXTURE, Projection, Scatter};
+use crate::geometry::Geometry;
 use crate::intersect::PrimKind;
 
 /// What a compiled scene needs.
@@ -14,6 +15,8 @@ pub struct Requirements {
     pub shading_normals: bool,
     /// Texture coordinates and texture look-ups.
     pub textures: bool,
+    /// Surfaces with radiance of their own, ambient light included.
+    pub glow: bool,
     /// Any light: shadow rays and direct shading.
     pub lights: bool,
     /// Materials with a highlight.
@@ -48,6 +51,7 @@ impl Requirements {
             instances: !geometry.instances.is_empty(),
             shading_normals: !geometry.triangles.normal[0].is_empty(),
             textures: materials.texture.iter().any(|&t| t != NO_TEXTURE),
+            glow: materials.glow.iter().flatten().any(|&c| c != 0.0),
             lights: !lights.is_empty(),
             highlights,
             fractional_shininess: highlights && materials.shininess.iter().any(|s| s & 0xff != 0),

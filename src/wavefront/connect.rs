@@ -8,9 +8,10 @@ use super::queue::{Column3, column, compress_words, words};
 use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
 use crate::accel::Hint;
+use crate::geometry::gather3;
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
-use crate::scene::{Light, gather3};
+use crate::scene::Light;
 use crate::shading::{Lobes, blinn_phong};
 
 /// Shadow rays and what their light would add.

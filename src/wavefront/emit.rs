@@ -4,9 +4,9 @@ use super::extend::Hits;
 use super::queue::{PathQueue, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
+use crate::geometry::gather3;
 use crate::intersect::Tier;
-use crate::math::{Lane, Vec3, WIDTH};
-use crate::scene::gather3;
+use crate::math::{Lane, Vec3, WIDTH, eight};
 
 /// Adds what missing paths see.
 pub(super) fn background<T: Tier>(
@@ -17,11 +17,11 @@ pub(super) fn background<T: Tier>(
 ) {
     for at in (0..hits.misses.len()).step_by(WIDTH) {
         let (rows, lanes) = list_lanes(&hits.misses, at);
-        let paths = rows.map(|r| r + first as u32);
+        let paths = eight(|i| rows[i] + first as u32);
         let direction = queue.direction.gather::<T::Wide>(&paths);
         let seen = worker.frame.scene.background.radiance(direction);
         let radiance = queue.throughput.gather::<T::Wide>(&paths).scale(seen);
-        worker.radiance.add(&paths.map(|p| queue.slot[p as usize]), radiance, lanes);
+        worker.radiance.add(&eight(|i| queue.slot[paths[i] as usize]), radiance, lanes);
     }
 }
 

@@ -6,7 +6,7 @@ use super::medium::OUTSIDE;
 use super::queue::{PathQueue, padded};
 use super::wave::{Frame, WaveSamples};
 use crate::intersect::Tier;
-use crate::math::{BitLane, Lane, Vec3, WIDTH};
+use crate::math::{BitLane, Lane, Vec3, WIDTH, eight};
 use crate::sampling::{FILTER, LENS};
 
 /// A queue with one path for each slot, in slot order, and the weights of the samples where the filter gives any.
@@ -45,8 +45,8 @@ fn camera_rays<T: Tier>(
 ) -> (crate::scene::CameraRays<T::Wide>, T::Wide) {
     type Bits = wide::u32x8;
     let slots = wave.eight_slots(at);
-    let (x, y) = (Bits::new(slots.map(|s| s.0[0])), Bits::new(slots.map(|s| s.0[1])));
-    let sample = Bits::new(slots.map(|s| s.1));
+    let (x, y) = (Bits::new(eight(|i| slots[i].0[0])), Bits::new(eight(|i| slots[i].0[1])));
+    let sample = Bits::new(eight(|i| slots[i].1));
     let draw = |dimension| frame.sampler.pair::<T::Wide>(x, y, sample, BitLane::splat(dimension));
     let (u, v) = draw(FILTER);
     let (dx, dy, weight) = frame.filter.sample(u, v);

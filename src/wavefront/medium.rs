@@ -24,6 +24,12 @@ pub(super) fn leave(state: u64, body: u16) -> u64 {
     state
 }
 
+/// The state of a ray found inside `body`: as if it had entered, where no entry was seen (a camera inside a body).
+pub(super) fn found_inside(state: u64, body: u16) -> u64 {
+    let known = (0..4).any(|level| (state >> (16 * level)) as u16 == body);
+    if known { state } else { enter(state, body) }
+}
+
 /// The body whose inside counts: the innermost.
 pub(super) fn innermost(state: u64) -> u16 {
     state as u16
@@ -45,6 +51,14 @@ mod tests {
     #[test]
     fn leaving_what_was_never_entered_changes_nothing() {
         assert_eq!(leave(enter(OUTSIDE, 2), 5), enter(OUTSIDE, 2));
+    }
+
+    #[test]
+    fn a_ray_found_inside_without_entering_gets_out() {
+        let inside = found_inside(enter(OUTSIDE, 2), 9);
+        assert_eq!(innermost(inside), 9);
+        assert_eq!(found_inside(inside, 2), inside);
+        assert_eq!(leave(inside, 9), enter(OUTSIDE, 2));
     }
 
     #[test]

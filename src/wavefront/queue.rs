@@ -4,7 +4,7 @@
 
 use bumpalo::Bump;
 
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
 
 /// The least multiple of the packet width that holds `n`.
 pub(super) fn padded(n: usize) -> usize {
@@ -73,6 +73,9 @@ pub(super) fn compress<L: Lane>(column: &mut [L::Scalar], at: usize, v: L, lanes
 /// Writes the chosen words to consecutive rows from `at` on.
 #[inline(always)]
 pub(super) fn compress_words(column: &mut [u32], at: usize, words: &[u32; WIDTH], lanes: u32) {
+    if lanes == 0xff {
+        return column[at..at + WIDTH].copy_from_slice(words);
+    }
     for (k, i) in set_bits(lanes).enumerate() {
         column[at + k] = words[i];
     }
@@ -92,7 +95,7 @@ pub(super) fn set_bits(bits: u32) -> impl Iterator<Item = usize> {
 /// True if the rows follow each other, as they do where neighbours hit the same: then they load as they lie.
 #[inline(always)]
 pub(super) fn is_run(rows: &[u32; WIDTH]) -> bool {
-    *rows == std::array::from_fn(|i| rows[0].wrapping_add(i as u32))
+    *rows == eight(|i| rows[0].wrapping_add(i as u32))
 }
 
 /// The rows of a column named by `rows`.
@@ -118,7 +121,7 @@ pub(super) fn list_lanes(list: &[u32], at: usize) -> ([u32; WIDTH], u32) {
         return (*full, 0xff);
     }
     let last = rest.len() - 1;
-    (std::array::from_fn(|i| rest[i.min(last)]), (1 << rest.len()) - 1)
+    (eight(|i| rest[i.min(last)]), (1 << rest.len()) - 1)
 }
 
 /// Paths of one depth.

@@ -67,7 +67,9 @@ fn run_chunk<T: Tier>(
     let hits = extend(worker, paths, (first, n), Hint::Auto, arena);
     background(worker, paths, first, &hits);
     let surfaces = SurfaceQueue::evaluate::<T::Wide>(scene, paths, first, &hits, arena);
-    glow(worker, &surfaces);
+    if scene.requirements.glow {
+        glow(worker, &surfaces);
+    }
     if scene.requirements.lights {
         connect(worker, &surfaces, arena);
     }

@@ -1,14 +1,15 @@
 //! Secondary rays: mirrored, refracted, scattered; one function a kind of material.
 
-use super::medium::{enter, innermost, leave};
+use super::medium::{enter, found_inside, innermost, leave};
 use super::offset::offset_along;
 use super::queue::{PathLanes, PathQueue, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
+use crate::geometry::gather3;
 use crate::intersect::Tier;
-use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
+use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH, eight};
 use crate::sampling::{ScatterDraw, bounce, child_branch, cosine_hemisphere, to_frame};
-use crate::scene::{Scatter, gather3};
+use crate::scene::Scatter;
 use crate::shading::{fresnel_dielectric, reflect, refract};
 
 /// Eight surfaces of one kind of material.
@@ -58,7 +59,7 @@ fn gather<T: Tier>(
     lanes: u32,
 ) -> Lanes<T::Wide> {
     let scene = worker.frame.scene;
-    let materials = rows.map(|r| surfaces.material(r));
+    let materials = eight(|i| surfaces.material(rows[i]));
     let tint = gather3::<T::Wide>(&scene.materials.tint, &materials);
     let weight = surfaces.throughput.gather::<T::Wide>(rows).scale(tint);
     let inside = (0..WIDTH).map(|i| surfaces.from_inside[rows[i] as usize] << i).sum();
@@ -71,8 +72,8 @@ fn gather<T: Tier>(
         direction: surfaces.direction.gather(rows),
         weight,
         materials,
-        slot: rows.map(|r| surfaces.slot(r)),
-        path: rows.map(|r| surfaces.path[r as usize]),
+        slot: eight(|i| surfaces.slot(rows[i])),
+        path: eight(|i| surfaces.path[rows[i] as usize]),
         from_inside: Mask::from_bits(inside),
         lanes: lanes & bright.bits(),
     }
@@ -106,10 +107,11 @@ impl<L: Lane> Lanes<L> {
             direction,
             throughput: weight,
             slot: self.slot,
-            medium: self.path.map(|p| paths.medium.get(p as usize).copied().unwrap_or_default()),
-            branch: self
-                .path
-                .map(|p| child_branch(paths.branch.get(p as usize).copied().unwrap_or_default(), which)),
+            medium: eight(|i| paths.medium.get(self.path[i] as usize).copied().unwrap_or_default()),
+            branch: eight(|i| {
+                let parent = paths.branch.get(self.path[i] as usize);
+                child_branch(parent.copied().unwrap_or_default(), which)
+            }),
         }
     }
 }
@@ -142,7 +144,11 @@ fn dielectric<T: Tier>(
     let least = T::Wide::constant(scene.settings.min_throughput);
     let mut through =
         PathLanes { medium: beyond::<T>(s, paths), ..s.leaving(s.direction, s.weight, Side::Other, paths) };
-    let near = s.path.map(|p| paths.medium[p as usize]);
+    let inside = s.from_inside.bits();
+    let near = eight(|i| match (paths.medium[s.path[i] as usize], inside >> i & 1) {
+        (state, 0) => state,
+        (state, _) => found_inside(state, s.materials[i] as u16 + 1),
+    });
     let eta = refraction_index::<T>(worker, &through.medium) / refraction_index::<T>(worker, &near);
     let reflectance = fresnel_dielectric(s.direction.dot(s.shading_normal), eta);
 
@@ -164,7 +170,7 @@ fn dielectric<T: Tier>(
 /// The dielectrics around the refracted rays: one more on the way in, one less on the way out.
 fn beyond<T: Tier>(s: &Lanes<T::Wide>, paths: &PathQueue<T::Real>) -> [u64; WIDTH] {
     let inside = s.from_inside.bits();
-    std::array::from_fn(|i| {
+    eight(|i| {
         let (state, body) = (paths.medium[s.path[i] as usize], s.materials[i] as u16 + 1);
         if inside >> i & 1 != 0 { leave(state, body) } else { enter(state, body) }
     })
@@ -191,7 +197,7 @@ fn diffuse<T: Tier>(
     paths: &PathQueue<T::Real>,
     next: &mut PathQueue<T::Real>,
 ) {
-    let samples = s.slot.map(|slot| wave.of_slot(slot));
+    let samples = eight(|i| wave.of_slot(s.slot[i]));
     let branch = <wide::u32x8 as BitLane>::from_fn(|i| paths.branch[s.path[i] as usize]);
     let (u, v) = worker.frame.sampler.pair::<T::Wide>(
         BitLane::from_fn(|i| samples[i].0[0]),

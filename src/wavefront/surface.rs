@@ -3,9 +3,9 @@
 //! All of it in `f64` and rounded once: a point on a ground sphere of radius 1e6 is then as good as its coordinates, and
 //! the bound that secondary rays are offset by stays a few roundoffs of the point, whatever the primitive's size.
 
+use crate::geometry::{Geometry, gather, gather3};
 use crate::intersect::PrimKind;
-use crate::math::{Lane, Real, Transform, Vec3, WIDTH, gamma_of};
-use crate::scene::{Geometry, gather, gather3};
+use crate::math::{Lane, Real, Transform, Vec3, WIDTH, eight, gamma_of};
 
 /// Hits as lanes.
 #[derive(Clone, Copy)]
@@ -97,7 +97,7 @@ fn evaluate_local<D: Double>(g: &Geometry, kind: PrimKind, hit: &HitLanes<D>) ->
 #[inline(always)]
 fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> SurfaceLanes<D> {
     let t = &g.triangles;
-    let vertex = t.vertex.each_ref().map(|column| hit.row.map(|row| column[row as usize]));
+    let vertex = t.vertex.each_ref().map(|column| eight(|i| column[hit.row[i] as usize]));
     let [p0, p1, p2] = vertex.map(|v| gather3::<D>(&t.position, &v));
     let weights = [D::one() - hit.u - hit.v, hit.u, hit.v];
     let [a, b, c] = [p0 * weights[0], p1 * weights[1], p2 * weights[2]];

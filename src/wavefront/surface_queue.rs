@@ -3,11 +3,14 @@
 use bumpalo::Bump;
 
 use super::extend::{Hits, KINDS};
-use super::queue::{Column3, PathQueue, column, compress, gather, list_lanes, set_bits, words};
+use super::queue::{
+    Column3, PathQueue, column, compress, compress_words, gather, list_lanes, set_bits, words,
+};
 use super::surface::{HitLanes, SurfaceLanes, evaluate};
+use crate::geometry::{NO_MATERIAL, gather3};
 use crate::intersect::PrimId;
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
-use crate::scene::{NO_MATERIAL, NO_TEXTURE, Scatter, Scene, gather3, sample_texture};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
+use crate::scene::{NO_TEXTURE, Scatter, Scene, sample_texture};
 
 /// One row for each path that hit something, in the order of primitive kinds.
 ///
@@ -68,11 +71,10 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         for (kind, list) in KINDS.into_iter().zip(&hits.by_kind) {
             for at in (0..list.len()).step_by(WIDTH) {
                 let (rows, lanes) = list_lanes(list, at);
-                let paths = rows.map(|r| r + first as u32);
+                let paths = eight(|i| rows[i] + first as u32);
                 let hit = gather_hits::<L>(queue, &paths, hits, &rows);
                 let surface = evaluate(&scene.geometry, kind, &hit);
-                let materials =
-                    std::array::from_fn(|i| material_of(scene, kind, hit.row[i], hit.instance[i]));
+                let materials = eight(|i| material_of(scene, kind, hit.row[i], hit.instance[i]));
                 surfaces.push(scene, queue, &hit, surface, &paths, &materials, lanes);
             }
         }
@@ -109,17 +111,26 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
             let plain = gather3::<L>(&scene.materials.diffuse, materials);
             diffuse.compress(at, plain.scale(texture_color(scene, materials, surface.uv)), lanes);
         }
-        for (k, i) in set_bits(lanes).enumerate() {
-            self.slot[at + k] = queue.slot[paths[i] as usize];
-            self.material[at + k] = materials[i];
-            self.path[at + k] = paths[i];
-            self.from_inside[at + k] = inside.bits() >> i & 1;
-            let scatter = scene.materials.scatter[materials[i] as usize];
-            if scatter != Scatter::Absorb {
-                self.by_scatter[scatter as usize].push((at + k) as u32);
-            }
+        compress_words(self.slot, at, &eight(|i| queue.slot[paths[i] as usize]), lanes);
+        compress_words(self.material, at, materials, lanes);
+        compress_words(self.path, at, paths, lanes);
+        let inside = inside.bits();
+        compress_words(self.from_inside, at, &eight(|i| inside >> i & 1), lanes);
+        if scene.requirements.children() > 0 {
+            self.sort_by_scatter(scene, materials, lanes);
         }
         self.len += lanes.count_ones() as usize;
+    }
+
+    /// Notes the rows about to be appended whose material sends rays on.
+    #[inline(always)]
+    fn sort_by_scatter(&mut self, scene: &Scene, materials: &[u32; WIDTH], lanes: u32) {
+        for (k, i) in set_bits(lanes).enumerate() {
+            let scatter = scene.materials.scatter[materials[i] as usize];
+            if scatter != Scatter::Absorb {
+                self.by_scatter[scatter as usize].push((self.len + k) as u32);
+            }
+        }
     }
 
     /// The lanes from `at` on that hold rows.
@@ -166,8 +177,8 @@ fn gather_hits<L: Lane>(
         t: gather(hits.t, rows),
         u: gather(hits.u, rows),
         v: gather(hits.v, rows),
-        row: rows.map(|r| PrimId(hits.prim[r as usize]).row() as u32),
-        instance: rows.map(|r| hits.instance.get(r as usize).copied().unwrap_or(0)),
+        row: eight(|i| PrimId(hits.prim[rows[i] as usize]).row() as u32),
+        instance: eight(|i| hits.instance.get(rows[i] as usize).copied().unwrap_or(0)),
     }
 }
 

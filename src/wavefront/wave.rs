@@ -3,7 +3,7 @@
 use crate::accel::Traversal;
 use crate::film::SampleSums;
 use crate::intersect::Tier;
-use crate::math::WIDTH;
+use crate::math::{WIDTH, eight};
 use crate::sampling::{FilterSampler, Sampler};
 use crate::scene::{Scatter, Scene};
 
@@ -57,7 +57,7 @@ impl WaveSamples<'_> {
     #[inline(always)]
     pub(super) fn eight_slots(&self, at: usize) -> [([u32; 2], u32); WIDTH] {
         let (mut pixel, mut sample) = (at % self.pixels.len(), at / self.pixels.len());
-        std::array::from_fn(|_| {
+        eight(|_| {
             let slot = (self.pixels[pixel], self.first_sample + sample as u32);
             pixel += 1;
             if pixel == self.pixels.len() {

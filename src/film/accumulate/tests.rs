@@ -59,19 +59,6 @@ fn any_blocks() -> impl Strategy<Value = Vec<[f32; 2]>> {
 
 proptest! {
     #[test]
-    fn contributions_add_up_alike_in_any_order(
-        mut parts in prop::collection::vec(-1e4f32..1e4, 0..100), turn in any::<prop::sample::Index>(),
-    ) {
-        let add = |p: &[f32]| p.iter().fold(ExactSum::default(), |s, &x| s.plus(ExactSum::quantise(x)));
-        let (forward, exact) = (add(&parts), parts.iter().map(|&x| f64::from(x)).sum::<f64>());
-        prop_assert!((f64::from(forward.to_f32()) - exact).abs() <= exact.abs() * 6e-8 + 1e-10);
-        let cut = turn.index(parts.len() + 1);
-        let halves = add(&parts[cut..]).plus(add(&parts[..cut]));
-        parts.reverse();
-        prop_assert_eq!([add(&parts), halves], [forward; 2]);
-    }
-
-    #[test]
     fn the_tree_is_the_recursive_sum(blocks in any_blocks()) {
         prop_assert_eq!(bits(tree(&blocks, 0, blocks.len()).total()), bits(recursive_sum(&blocks)));
     }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use super::dice::Dice;
-use crate::math::{Lane, Real, Transform, Vec3};
+use crate::math::{Lane, Real, Vec3};
 
 /// A closed surface: every edge belongs to two triangles.
 pub(crate) struct Mesh {
@@ -79,11 +79,11 @@ impl Mesh {
     pub(crate) fn placed(&self, dice: &mut Dice, reach: f64) -> (Vec<[f32; 3]>, Vec3<f64>, f64) {
         let size = dice.magnitude(-6.0, 6.0).abs();
         let center = dice.point().map(|x| x * reach * size);
-        let place = Transform::rotate(dice.heading(), dice.between(0.0, 7.0))
-            .and_then(|turn| Ok(turn.then(&Transform::scale([size; 3])?)))
-            .expect("a rotation and a positive scale");
-        let place = place.then(&Transform::translate(center));
-        let points = self.points.iter().map(|&p| place.point(p).map(|x| x as f32)).collect();
+        let turn = turned(dice.heading(), dice.between(0.0, 7.0));
+        let place = |p: [f64; 3]| -> [f64; 3] {
+            std::array::from_fn(|r| center[r] + size * (0..3).map(|k| turn[r][k] * p[k]).sum::<f64>())
+        };
+        let points = self.points.iter().map(|&p| place(p).map(|x| x as f32)).collect();
         (points, Vec3::splat(center), size)
     }
 
@@ -98,6 +98,17 @@ impl Mesh {
         };
         self.triangles.chunks(L::WIDTH).map(pack).collect()
     }
+}
+
+/// The rows of a rotation about a unit axis (Rodrigues' formula).
+fn turned([x, y, z]: [f64; 3], angle_rad: f64) -> [[f64; 3]; 3] {
+    let (s, c) = angle_rad.sin_cos();
+    let k = 1.0 - c;
+    [
+        [c + k * x * x, k * x * y - s * z, k * x * z + s * y],
+        [k * x * y + s * z, c + k * y * y, k * y * z - s * x],
+        [k * x * z - s * y, k * y * z + s * x, c + k * z * z],
+    ]
 }
 
 #[test]

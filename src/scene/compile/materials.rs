@@ -12,48 +12,47 @@ use crate::shading::Shininess;
 /// Most material rows: a dielectric's row plus one fits the 16 bits of the nesting record.
 const MAX_ROWS: usize = u16::MAX as usize;
 
-/// Rows by name, and what is needed to make more.
+/// Rows by name, and what is needed to make more. A material becomes a row when something is made of it: what is only
+/// declared requires nothing.
 pub(super) struct MaterialTable {
     rows: Materials,
-    by_name: HashMap<String, u32>,
+    declared: HashMap<String, Material>,
+    /// Rows by name; that of objects without a material has none.
+    by_name: HashMap<Option<String>, u32>,
     textures: Vec<Texture>,
     texture_of: HashMap<PathBuf, u32>,
     folder: PathBuf,
     ambient: [f64; 3],
-    plain: Option<u32>,
 }
 
 impl MaterialTable {
-    pub(super) fn new(description: &SceneDescription) -> Result<Self, CompileError> {
-        let mut table = Self {
+    pub(super) fn new(description: &SceneDescription) -> Self {
+        Self {
             rows: Materials::default(),
+            declared: description.material.iter().map(|m| (m.name.clone(), m.clone())).collect(),
             by_name: HashMap::new(),
             textures: Vec::new(),
             texture_of: HashMap::new(),
             folder: description.folder.clone(),
             ambient: description.background.ambient(),
-            plain: None,
-        };
-        for material in &description.material {
-            let row = table.add(material)?;
-            table.by_name.insert(material.name.clone(), row);
         }
-        Ok(table)
     }
 
     /// The row of a material's name; that of a plain grey one without.
     pub(super) fn row(&mut self, name: Option<&str>) -> Result<u32, CompileError> {
-        match (name.and_then(|n| self.by_name.get(n)), self.plain) {
-            (Some(&row), _) | (None, Some(row)) => Ok(row),
-            (None, None) => {
-                let row = self.add(&Material::new("", MaterialKind::Diffuse))?;
-                self.plain = Some(row);
-                Ok(row)
-            }
+        let key = name.map(str::to_owned);
+        if let Some(&row) = self.by_name.get(&key) {
+            return Ok(row);
         }
+        let declared = name.and_then(|name| self.declared.get(name)).cloned();
+        let mut material = declared.unwrap_or_else(|| Material::new("", MaterialKind::Diffuse));
+        material.texture = material.texture.map(|path| self.folder.join(path));
+        let row = self.add(&material)?;
+        self.by_name.insert(key, row);
+        Ok(row)
     }
 
-    /// A new row for a material of the scene or of a mesh file.
+    /// A new row for a material whose texture path is complete, as those of mesh files are.
     pub(super) fn add(&mut self, m: &Material) -> Result<u32, CompileError> {
         if self.rows.len() == MAX_ROWS {
             return Err(CompileError::TooMany { what: "materials", limit: MAX_ROWS });
@@ -74,13 +73,12 @@ impl MaterialTable {
     }
 
     fn texture(&mut self, path: &Path) -> Result<u32, CompileError> {
-        let path = self.folder.join(path);
-        if let Some(&row) = self.texture_of.get(&path) {
+        if let Some(&row) = self.texture_of.get(path) {
             return Ok(row);
         }
         let row = self.textures.len() as u32;
-        self.textures.push(load_texture(&path)?);
-        self.texture_of.insert(path, row);
+        self.textures.push(load_texture(path)?);
+        self.texture_of.insert(path.to_owned(), row);
         Ok(row)
     }
 

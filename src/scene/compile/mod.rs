@@ -68,7 +68,7 @@ impl Scene {
     pub fn compile(description: &SceneDescription) -> Result<Self, CompileError> {
         let start = Instant::now();
         description.check().map_err(CompileError::Description)?;
-        let mut table = MaterialTable::new(description)?;
+        let mut table = MaterialTable::new(description);
         let (geometry, skipped_triangles) = World::compile(description, &mut table)?;
         let settings = RenderSettings::of(description);
         let camera = view::camera(description)?;

@@ -5,10 +5,10 @@ use std::collections::HashMap;
 use super::CompileError;
 use super::materials::MaterialTable;
 use crate::describe::{self, Objects, SceneDescription, Target};
+use crate::geometry::{Geometry, Group, Instance, NO_MATERIAL, push3, row3};
 use crate::intersect::PrimId;
 use crate::load::{self, load_described};
 use crate::math::Transform;
-use crate::scene::{Geometry, Group, Instance, NO_MATERIAL, push3, row3};
 use glam::DVec3;
 
 /// A group while it is compiled: its rows, and what it shows of other groups.
@@ -303,7 +303,7 @@ const NOTHING: Objects<'static> =
     Objects { spheres: &[], cylinders: &[], triangles: &[], quads: &[], meshes: &[], instances: &[] };
 
 /// Keeps the normal columns as long as the vertex columns from the first mesh on that has normals.
-fn normals(t: &mut crate::scene::Triangles, mesh: &load::Mesh, transform: &Transform, first: usize) {
+fn normals(t: &mut crate::geometry::Triangles, mesh: &load::Mesh, transform: &Transform, first: usize) {
     if mesh.normals.is_empty() && t.normal[0].is_empty() {
         return;
     }
@@ -320,7 +320,7 @@ fn normals(t: &mut crate::scene::Triangles, mesh: &load::Mesh, transform: &Trans
 }
 
 /// The same for texture coordinates.
-fn uvs(t: &mut crate::scene::Triangles, mesh: &load::Mesh, first: usize) {
+fn uvs(t: &mut crate::geometry::Triangles, mesh: &load::Mesh, first: usize) {
     if mesh.uvs.is_empty() && t.uv[0].is_empty() {
         return;
     }

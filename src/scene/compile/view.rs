@@ -83,7 +83,8 @@ fn unit(v: DVec3) -> [f32; 3] {
 impl Background {
     pub(super) fn of(description: &SceneDescription) -> Self {
         let [bottom, top] = description.background.bottom_and_top();
-        Self { bottom, top, up: DVec3::from(description.camera.up).normalize().into() }
+        let up = DVec3::from(description.camera.up).normalize().into();
+        Self { bottom, top, up }
     }
 }
 
