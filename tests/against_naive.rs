@@ -59,7 +59,7 @@ fn the_comparison_sees_a_light_that_is_moved_a_little() {
     let expected = naive::render(&scene);
     scene.light.point[0].position[0] += 0.05;
     let share = share_off(&scene, &expected);
-    assert!(share > 0.5, "{share}");
+    assert!(share > 0.2, "{share}");
 }
 
 #[test]

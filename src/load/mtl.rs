@@ -2,7 +2,7 @@
 //!
 //! | MTL | here |
 //! |---|---|
-//! | `Kd`, `Ka`, `Ks`, `Ke` | `kd`, `ka`, `ks`, `emission`; one number counts for all channels |
+//! | `Kd`, `Ka`, `Ks`, `Ke` | `kd`, `ka`, `ks`, `emission`; one number counts for all channels; without `Ka`, an eighth of `Kd` |
 //! | `Ns` | `shininess`, at most 65536 |
 //! | `Ni` | `ior` |
 //! | `illum` 3, 5, 8 | `metal`, tinted with `Ks` when that is not black |
@@ -127,12 +127,16 @@ fn prepare(source: &str, mtl: &Path) -> Result<String, LoadError> {
     Ok(text)
 }
 
+/// The ambient coefficient over the diffuse one where the file has no `Ka`: that of a material without any key.
+const AMBIENT_SHARE: f64 = 0.125;
+
 fn convert(m: &tobj::Material, mtl: &Path) -> Result<Material, LoadError> {
     let kind = kind(m);
     let color = |written: Option<[f32; 3]>| written.map(|c| Rgb(c.map(|x| sound(x).max(0.0))));
     let ks = color(m.specular);
     Ok(Material {
-        ka: color(m.ambient),
+        // A dark wall without `Ka` must not glow in the shade like a white one.
+        ka: color(m.ambient).or_else(|| color(m.diffuse).map(|kd| Rgb(kd.0.map(|k| AMBIENT_SHARE * k)))),
         kd: color(m.diffuse),
         ks,
         tint: match kind {

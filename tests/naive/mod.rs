@@ -112,14 +112,18 @@ impl World<'_> {
         body: usize,
         inside: bool,
     ) -> (f64, Option<V>, Vec<usize>) {
-        let mut beyond = bodies.to_vec();
-        if !inside {
-            beyond.push(body);
-        } else if let Some(at) = bodies.iter().rposition(|&b| b == body) {
-            beyond.remove(at);
+        let mut near = bodies.to_vec();
+        // A ray that comes out of a body it never entered started inside of it.
+        if inside && !near.contains(&body) {
+            near.push(body);
+        }
+        let mut beyond = near.clone();
+        match near.iter().rposition(|&b| b == body) {
+            Some(at) if inside => drop(beyond.remove(at)),
+            _ => beyond.push(body),
         }
         let index = |bodies: &[usize]| bodies.last().map_or(1.0, |&b| self.scene.material[b].ior);
-        let (from, to) = (index(bodies), index(&beyond));
+        let (from, to) = (index(&near), index(&beyond));
         // Snell by the part of the direction that runs along the surface.
         let along = add(direction, scale(normal, -dot(direction, normal)));
         let sideways = scale(along, from / to);
