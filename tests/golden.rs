@@ -13,7 +13,7 @@ use std::path::PathBuf;
 
 use common::{builtin, film, in_tier};
 use octray::describe::Tier;
-use octray::film::{Rgb8, Tone, develop};
+use octray::film::{Film, Rgb8, Tone, develop};
 use octray::output::{Format, Picture, read_file, write_file};
 
 const SIZE: [u32; 2] = [64, 48];
@@ -34,24 +34,28 @@ fn stored(name: &str) -> PathBuf {
     PathBuf::from(env!("CARGO_MANIFEST_DIR")).join(file)
 }
 
+/// The film must develop to the stored bytes.
+fn assert_stored(name: &str, film: &Film) {
+    let path = stored(name);
+    if std::env::var_os("OCTRAY_UPDATE_GOLDEN").is_some() {
+        write_file(&path, film, Format::Png, Tone::default()).unwrap();
+    }
+    let Picture::Display(expected) = read_file(&path).unwrap() else { unreachable!("a PNG has bytes") };
+    let found = develop(film, Tone::default()).picture;
+    let differ = found.bytes.iter().zip(&expected.bytes).filter(|(a, b)| a != b).count();
+    assert_eq!(differ, 0, "{name}: {differ} of {} bytes differ from {}", found.bytes.len(), path.display());
+}
+
 #[test]
 fn watertight_pictures_are_the_stored_bytes() {
     for name in SCENES {
-        let path = stored(name);
-        if std::env::var_os("OCTRAY_UPDATE_GOLDEN").is_some() {
-            write_file(&path, &film(&builtin(name, SIZE, 4)), Format::Png, Tone::default()).unwrap();
-        }
-        let Picture::Display(expected) = read_file(&path).unwrap() else { unreachable!("a PNG has bytes") };
-        let found = picture(name, Tier::Watertight);
-        let differ = found.bytes.iter().zip(&expected.bytes).filter(|(a, b)| a != b).count();
-        assert_eq!(
-            differ,
-            0,
-            "{name}: {differ} of {} bytes differ from {}",
-            found.bytes.len(),
-            path.display()
-        );
+        assert_stored(name, &film(&builtin(name, SIZE, 4)));
     }
+}
+
+#[test]
+fn the_readmes_picture_is_what_its_command_renders() {
+    assert_stored("readme", &film(&octray::describe::builtin("seed").unwrap().unwrap()));
 }
 
 #[test]
