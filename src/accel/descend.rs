@@ -11,7 +11,7 @@ use super::node::{ChildRef, Node8};
 use super::query::Query;
 use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
-use crate::math::Mask;
+use crate::math::{Mask, three};
 use wide::f32x8;
 
 /// How rays go down the tree.
@@ -48,9 +48,11 @@ pub(super) struct Octant {
 impl Octant {
     #[inline(always)]
     pub(super) fn of(cull: &CullRay<f32x8>) -> Self {
-        let axes = cull.backward().map(|m| m.bits());
-        let bits = axes.iter().enumerate().map(|(k, m)| (*m as usize & 1) << k).sum();
-        Self { bits, shared: axes.iter().all(|m| matches!(m, 0 | 0xff)) }
+        let backward = cull.backward();
+        let [x, y, z] = three(|k| backward[k].bits());
+        let bits = (x & 1 | (y & 1) << 1 | (z & 1) << 2) as usize;
+        let agree = |m: u32| m == 0 || m == 0xff;
+        Self { bits, shared: agree(x) && agree(y) && agree(z) }
     }
     /// True if rays meet the upper plane of axis `k` first.
     #[inline(always)]

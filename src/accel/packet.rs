@@ -6,7 +6,7 @@ use super::block::RaysByPrimitive;
 use super::descend::{Descend, Octant};
 use super::node::{ChildRef, Node8};
 use crate::intersect::aabb::CullRay;
-use crate::math::{Lane, Mask, Vec3, WIDTH};
+use crate::math::{Lane, Mask, Vec3, WIDTH, three};
 use wide::f32x8;
 
 /// A child to visit, and where each ray enters it; infinity where one does not.
@@ -67,7 +67,7 @@ fn interval(
 ) -> (f32x8, f32x8) {
     if octant.shared {
         let plane = |k: usize, upper: bool| if upper { node.hi[k][slot] } else { node.lo[k][slot] };
-        let corner = |far: bool| Vec3::splat([0, 1, 2].map(|k| plane(k, octant.upper_first(k) ^ far)));
+        let corner = |far: bool| Vec3::splat(three(|k| plane(k, octant.upper_first(k) ^ far)));
         return cull.interval(corner(false), corner(true), t_min, t_max);
     }
     let splat = |c: &[[f32; WIDTH]; 3]| Vec3::splat([c[0][slot], c[1][slot], c[2][slot]]);

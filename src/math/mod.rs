@@ -25,6 +25,12 @@ pub(crate) fn eight<T>(mut f: impl FnMut(usize) -> T) -> [T; WIDTH] {
     [f(0), f(1), f(2), f(3), f(4), f(5), f(6), f(7)]
 }
 
+/// The same for the three axes or corners.
+#[inline(always)]
+pub(crate) fn three<T>(mut f: impl FnMut(usize) -> T) -> [T; 3] {
+    [f(0), f(1), f(2)]
+}
+
 /// Bound on the relative error of `n` roundings: `n u / (1 - n u)` with the unit roundoff `u` of `f32`.
 ///
 /// **Source:** Higham, Accuracy and Stability of Numerical Algorithms, 2002, lemma 3.1; the name is that of

@@ -2,7 +2,7 @@
 
 use std::ops::{Add, AddAssign, Mul, Neg, Sub};
 
-use super::{Lane, Real};
+use super::{Lane, Real, three};
 
 /// Three lanes: a point, direction or colour a lane.
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
@@ -29,7 +29,7 @@ impl<L: Lane> Vec3<L> {
     /// The same `f32` vector in each lane, exactly.
     #[inline(always)]
     pub fn splat_f32(v: [f32; 3]) -> Self {
-        Self::splat(v.map(L::Scalar::from_f32))
+        Self::splat(three(|k| L::Scalar::from_f32(v[k])))
     }
     /// The zero vector.
     #[inline(always)]

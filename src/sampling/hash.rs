@@ -8,10 +8,11 @@ use crate::math::{BitLane, Lane};
 ///
 /// **Source:** Jarzynski and Olano, Hash Functions for GPU Rendering, JCGT 9(3), 2020, `pcg4d`.
 #[inline(always)]
-pub fn pcg4d<W: BitLane>(words: [W; 4]) -> [W; 4] {
+pub fn pcg4d<W: BitLane>([x, y, z, w]: [W; 4]) -> [W; 4] {
     let congruence = |v: W| v.wrapping_mul(W::splat(1_664_525)).wrapping_add(W::splat(1_013_904_223));
-    let mixed = cross_multiply(words.map(congruence));
-    cross_multiply(mixed.map(|v| v ^ v.shr(16)))
+    let [x, y, z, w] = cross_multiply([congruence(x), congruence(y), congruence(z), congruence(w)]);
+    let fold = |v: W| v ^ v.shr(16);
+    cross_multiply([fold(x), fold(y), fold(z), fold(w)])
 }
 
 /// Adds to each word the product of two others, one after the other: each step can be undone.

@@ -1,6 +1,6 @@
 //! From a place on the film to a ray.
 
-use crate::math::{Lane, Real, Vec3};
+use crate::math::{Lane, Vec3};
 
 /// How the camera projects.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,7 +50,7 @@ pub struct CameraRays<L> {
 }
 
 fn splat<L: Lane>(v: [f64; 3]) -> Vec3<L> {
-    Vec3::splat(v.map(<L::Scalar as Real>::from_f64))
+    Vec3::new(L::constant(v[0]), L::constant(v[1]), L::constant(v[2]))
 }
 
 impl Camera {

@@ -20,7 +20,7 @@ use crate::film::Tone;
 use crate::geometry::Geometry;
 use crate::intersect::TierName;
 use crate::load::Texture;
-use crate::math::{Lane, Real, Vec3};
+use crate::math::{Lane, Vec3};
 use crate::sampling::{PixelFilter, SamplerKind};
 
 /// What rays see that hit nothing: a gradient from straight down to straight up.
@@ -38,7 +38,7 @@ impl Background {
     /// Radiance along unit directions, linear in their height above the horizon.
     #[inline(always)]
     pub fn radiance<L: Lane>(&self, direction: Vec3<L>) -> Vec3<L> {
-        let splat = |c: [f64; 3]| Vec3::<L>::splat(c.map(<L::Scalar as Real>::from_f64));
+        let splat = |c: [f64; 3]| Vec3::<L>::new(L::constant(c[0]), L::constant(c[1]), L::constant(c[2]));
         let bottom = splat(self.bottom);
         if self.bottom == self.top {
             return bottom;

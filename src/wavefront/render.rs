@@ -238,8 +238,8 @@ impl<'a, T: Tier> TileWorker<'a, T> {
         let n = self.pixels.len();
         for slot in 0..wave.len() {
             let weight = self.weights[slot];
-            let [r, g, b] = self.worker.radiance.rgb(slot).map(|c| c * weight);
-            self.sums[slot % n].push([r, g, b, weight]);
+            let [r, g, b] = self.worker.radiance.rgb(slot);
+            self.sums[slot % n].push([r * weight, g * weight, b * weight, weight]);
         }
     }
 }

@@ -5,7 +5,7 @@
 
 use crate::geometry::{Geometry, gather, gather3};
 use crate::intersect::PrimKind;
-use crate::math::{Lane, Real, Transform, Vec3, WIDTH, eight, gamma_of};
+use crate::math::{Lane, Real, Transform, Vec3, WIDTH, eight, gamma_of, three};
 
 /// Hits as lanes.
 #[derive(Clone, Copy)]
@@ -97,15 +97,15 @@ fn evaluate_local<D: Double>(g: &Geometry, kind: PrimKind, hit: &HitLanes<D>) ->
 #[inline(always)]
 fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> SurfaceLanes<D> {
     let t = &g.triangles;
-    let vertex = t.vertex.each_ref().map(|column| eight(|i| column[hit.row[i] as usize]));
-    let [p0, p1, p2] = vertex.map(|v| gather3::<D>(&t.position, &v));
+    let vertex = three(|k| eight(|i| t.vertex[k][hit.row[i] as usize]));
+    let [p0, p1, p2] = three(|k| gather3::<D>(&t.position, &vertex[k]));
     let weights = [D::one() - hit.u - hit.v, hit.u, hit.v];
     let [a, b, c] = [p0 * weights[0], p1 * weights[1], p2 * weights[2]];
     let sizes = (a.abs() + b.abs() + c.abs()).max_component();
     let geometric_normal = (p1 - p0).cross(p2 - p0).normalize();
     let shading_normal = match t.normal[0].is_empty() {
         true => geometric_normal,
-        false => smooth_normal(vertex.map(|v| gather3::<D>(&t.normal, &v)), weights, geometric_normal),
+        false => smooth_normal(three(|k| gather3::<D>(&t.normal, &vertex[k])), weights, geometric_normal),
     };
     let uv = match t.uv[0].is_empty() {
         true => (hit.u, hit.v),
@@ -117,7 +117,7 @@ fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> SurfaceLanes<D> {
 /// A vertex column at barycentric weights.
 #[inline(always)]
 fn blend<D: Double>(column: &[f32], vertex: &[[u32; WIDTH]; 3], [a, b, c]: [D; 3]) -> D {
-    let [x, y, z] = vertex.each_ref().map(|v| gather::<D>(column, v));
+    let [x, y, z] = three(|k| gather::<D>(column, &vertex[k]));
     x * a + y * b + z * c
 }
 

@@ -13,7 +13,7 @@
 use super::plane_coordinates;
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Lane, Mask, Vec3};
+use crate::math::{Lane, Mask, Vec3, three};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
@@ -122,7 +122,7 @@ fn inside_edges<L: Lane>(ray: &RayLanes<L>, shear: &Shear<L>, v: [Vec3<L>; 3]) -
 /// the caller's clamp picks its first (NaN becomes the lower bound).
 #[inline(always)]
 fn refine<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> (L, L, L) {
-    let (t, u, v) = plane_coordinates(ray.origin.widen(), ray.direction.widen(), v.map(Vec3::widen));
+    let (t, u, v) = plane_coordinates(ray.origin.widen(), ray.direction.widen(), three(|k| v[k].widen()));
     let (zero, one) = (L::zero(), L::one());
     let u = L::narrow(u).clamp(zero, one);
     let v = L::narrow(v).clamp(zero, one - u);
