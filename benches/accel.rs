@@ -89,7 +89,7 @@ fn checked_hits(scenery: &Scenery, rays: &[Ray], hint: Hint) -> usize {
     scenery.scene.closest(rays, &mut hits, TierName::Watertight, hint);
     for i in (0..rays.len()).step_by(rays.len() / CHECKED) {
         let plain = brute::closest::<Watertight>(&scenery.geometry, &RayLanes::from(&rays[i]));
-        assert_eq!(hits[i].map(|hit| (hit.t, hit.prim)), plain.map(|hit| (hit.0, hit.3)), "ray {i}");
+        assert_eq!(hits[i].map(|hit| (hit.t, hit.prim)), plain.map(|hit| (hit.t, hit.prim)), "ray {i}");
     }
     let mut occluded = vec![false; rays.len()];
     scenery.scene.occluded(rays, &mut occluded, TierName::Watertight, hint);

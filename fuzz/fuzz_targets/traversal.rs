@@ -127,9 +127,9 @@ type Bits = (u64, u64, u64, u32, u32);
 fn check<T: Tier>(geometry: &Geometry, accel: &Accel, rays: &RayLanes<T::Wide>) {
     let bits = |x: T::Real| x.to_f64().to_bits();
     let plainly = |i: usize| -> Option<Bits> {
-        let (t, u, v, prim, instance) = brute::closest::<T>(geometry, &rays.get(i))?;
+        let hit = brute::closest::<T>(geometry, &rays.get(i))?;
         let id = |prim: PrimId| (prim.kind() as u32) << 29 | prim.row() as u32;
-        Some((bits(t), bits(u), bits(v), id(prim), instance))
+        Some((bits(hit.t), bits(hit.u), bits(hit.v), id(hit.prim), hit.instance))
     };
     let expected: [Option<Bits>; WIDTH] = std::array::from_fn(plainly);
     let any: u32 = (0..WIDTH).map(|i| u32::from(expected[i].is_some()) << i).sum();

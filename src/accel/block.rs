@@ -196,7 +196,7 @@ impl InstanceBlock {
 /// A block of primitives that rays are tested against.
 pub trait Block {
     /// How many primitives count.
-    fn len(&self) -> u32;
+    fn count(&self) -> u32;
     /// Their ids.
     fn ids(&self) -> &[u32; WIDTH];
 }
@@ -205,7 +205,7 @@ macro_rules! block {
     ($($t:ty),*) => {$(
         impl Block for $t {
             #[inline(always)]
-            fn len(&self) -> u32 {
+            fn count(&self) -> u32 {
                 self.len
             }
             #[inline(always)]

@@ -8,11 +8,23 @@ use crate::geometry::{Geometry, Group, row3};
 use crate::intersect::{Curved, PrimId, PrimKind, RayLanes, Tier, TriangleTest, cylinder, plane, sphere};
 use crate::math::{Real, Vec3};
 
-/// The nearest hit of a ray among all primitives: `(t, u, v, prim, instance)`.
-pub fn closest<T: Tier>(
-    geometry: &Geometry,
-    ray: &RayLanes<T::Real>,
-) -> Option<(T::Real, T::Real, T::Real, PrimId, u32)> {
+/// The nearest hit of a ray, in the number type of its tier; fields as in [`crate::intersect::Hit`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NearestHit<R> {
+    /// Distance.
+    pub t: R,
+    /// First coordinate on the primitive.
+    pub u: R,
+    /// Second coordinate on the primitive.
+    pub v: R,
+    /// What was hit.
+    pub prim: PrimId,
+    /// Through which instance; 0 is none.
+    pub instance: u32,
+}
+
+/// The nearest hit of a ray among all primitives.
+pub fn closest<T: Tier>(geometry: &Geometry, ray: &RayLanes<T::Real>) -> Option<NearestHit<T::Real>> {
     let mut query = Closest::new(ray.t_max);
     planes::<T>(geometry, ray, &mut query);
     if let Some(world) = geometry.groups.first() {
@@ -24,7 +36,13 @@ pub fn closest<T: Tier>(
         group::<T>(geometry, &geometry.groups[instance.group], &local, &mut query);
     }
     let found = query.t < ray.t_max;
-    found.then_some((query.t, query.u, query.v, PrimId(query.prim), query.instance))
+    found.then_some(NearestHit {
+        t: query.t,
+        u: query.u,
+        v: query.v,
+        prim: PrimId(query.prim),
+        instance: query.instance,
+    })
 }
 
 fn splat<R: Real>(v: [f32; 3]) -> Vec3<R> {

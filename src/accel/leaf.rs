@@ -71,7 +71,7 @@ fn visit_block<T: Tier, W: Walk, Q: Query<T::Wide>, B: Block>(
     test: impl Fn(usize, T::Wide) -> LaneHit<T::Wide>,
 ) -> bool {
     let mut accepted = false;
-    for step in 0..W::steps(block.len()) {
+    for step in 0..W::steps(block.count()) {
         let hit = test(step, query.limit());
         accepted |= query.accept(ray, &hit, W::ids(block.ids(), step));
     }

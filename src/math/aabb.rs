@@ -101,9 +101,8 @@ mod tests {
     fn around_encloses_what_f32_cannot_hold() {
         let p = [0.1, 1e40, -1e40];
         let b = Aabb::around([p]);
-        for k in 0..3 {
-            assert!(f64::from(b.min[k]) <= p[k] && p[k] <= f64::from(b.max[k]), "axis {k}");
-        }
+        let holds = |k: usize| f64::from(b.min[k]) <= p[k] && p[k] <= f64::from(b.max[k]);
+        assert!((0..3).all(holds), "{b:?}");
     }
 
     #[test]

@@ -43,8 +43,8 @@ pub trait BitLane:
 /// A number, or eight of them: what every kernel is generic over.
 ///
 /// `+ - * / sqrt` and the comparisons are IEEE on each lane, so a kernel built from them gives each lane the bits that
-/// the scalar gives. [`Lane::mul_add_fast`] and [`Lane::recip_fast`] are the exceptions: they may differ between builds
-/// and widths, and belong in conservative culling and in the `Fast` tier only.
+/// the scalar gives. [`Lane::mul_add_fast`] is the exception: it may differ between builds
+/// and widths, and belongs in conservative culling and in the `Fast` tier only.
 pub trait Lane:
     Copy
     + Debug

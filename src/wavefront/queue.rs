@@ -63,10 +63,8 @@ pub(super) fn compress<L: Lane>(column: &mut [L::Scalar], at: usize, v: L, lanes
     if lanes == L::Mask::splat(true).bits() {
         return v.store(&mut column[at..]);
     }
-    let mut at = at;
-    for i in set_bits(lanes) {
-        column[at] = v.get(i);
-        at += 1;
+    for (k, i) in set_bits(lanes).enumerate() {
+        column[at + k] = v.get(i);
     }
 }
 

@@ -221,7 +221,7 @@ fn huge_and_tiny_primitives_equal_brute_force() {
             continue;
         }
         let expected =
-            brute::closest::<Watertight>(&geometry, &RayLanes::from(&ray)).map(|hit| (hit.0, hit.3));
+            brute::closest::<Watertight>(&geometry, &RayLanes::from(&ray)).map(|hit| (hit.t, hit.prim));
         for hint in HINTS {
             let hit = closest(&scene, &[ray], TierName::Watertight, hint)[0];
             assert_eq!(hit.map(|hit| (hit.t, hit.prim)), expected, "{ray:?}");

@@ -28,8 +28,8 @@ fn bits<R: Real>(x: R) -> u64 {
 }
 
 fn plainly<T: Tier>(geometry: &Geometry, ray: &RayLanes<T::Real>) -> Option<Bits> {
-    let (t, u, v, prim, instance) = brute::closest::<T>(geometry, ray)?;
-    Some((bits(t), bits(u), bits(v), prim.0, instance))
+    let hit = brute::closest::<T>(geometry, ray)?;
+    Some((bits(hit.t), bits(hit.u), bits(hit.v), hit.prim.0, hit.instance))
 }
 
 fn lane<L: Lane>(found: &Closest<L>, t_max: L, i: usize) -> Option<Bits> {

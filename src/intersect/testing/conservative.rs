@@ -99,7 +99,7 @@ fn own_box_and_tree_box_hold_the_exact_hit() {
         let m = meeting(&mut dice);
         let r = line(m.origin, m.direction);
         let Some(t) = exact::triangle(&r, m.vertices.map(Vec3::splat)) else { continue };
-        if !(t.abs() < 1e38) {
+        if t.is_nan() || t.abs() >= 1e38 {
             continue;
         }
         hits += 1;

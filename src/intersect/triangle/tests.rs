@@ -20,7 +20,7 @@ fn distance_to_edges(ray: &RayLanes<f64>, v: [Vec3<f64>; 3]) -> f64 {
     let across = v.map(|p| (p - ray.origin) + d * -(p - ray.origin).dot(d));
     let to_segment = |a: Vec3<f64>, b: Vec3<f64>| {
         let e = b - a;
-        let share = (-a.dot(e) / e.length_squared()).max(0.0).min(1.0);
+        let share = (-a.dot(e) / e.length_squared()).clamp(0.0, 1.0);
         (a + e * share).length()
     };
     (0..3).map(|i| to_segment(across[i], across[(i + 1) % 3])).fold(f64::INFINITY, f64::min)
