@@ -28,8 +28,7 @@ fn is_sound(mesh: &Mesh) -> bool {
     let fits = |column: usize, rows: usize| column == 0 || column == rows;
     let finite = |&v: &u32| mesh.positions.get(v as usize).is_some_and(|p| p.iter().all(|x| x.is_finite()));
     let unit = |n: &[f32; 3]| (n.iter().map(|x| x * x).sum::<f32>() - 1.0).abs() < 1e-3;
-    !mesh.triangles.is_empty()
-        && mesh.triangles.as_flattened().iter().all(finite)
+    mesh.triangles.as_flattened().iter().all(finite)
         && fits(mesh.normals.len(), vertices)
         && fits(mesh.uvs.len(), vertices)
         && fits(mesh.triangle_materials.len(), mesh.triangles.len())
