@@ -164,6 +164,13 @@ impl<const C: usize> PixelSum<C> {
         self.samples_in_block = 0;
     }
 
+    /// The sum of all samples pushed. **Needs:** `reset` before the next one.
+    #[inline(always)]
+    pub fn total(&mut self) -> [f32; C] {
+        // A pixel of few samples is one block and needs no tree.
+        if self.tree.nodes().is_empty() { self.block } else { self.finish().total() }
+    }
+
     /// Closes the last block, which may be short, and gives the sums. A short block ends the pixel: nothing can follow it.
     pub fn finish(&mut self) -> &BlockTree<C> {
         if self.samples_in_block > 0 {

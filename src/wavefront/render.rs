@@ -164,7 +164,7 @@ impl<'a> Shared<'a> {
         let (film, counts) = &mut *shared;
         for (&[x, y], sum) in tile.pixels.iter().zip(&mut tile.sums) {
             let at = (y - self.part[1]) as usize * self.part[2] as usize + (x - self.part[0]) as usize;
-            film.pixels[at] = mean(sum.finish().total());
+            film.pixels[at] = mean(sum.total());
         }
         *counts = counts.plus(&rays);
         counts.total()

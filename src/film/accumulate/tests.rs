@@ -36,6 +36,18 @@ fn gaps_and_overlaps_are_refused() {
 }
 
 #[test]
+fn a_total_is_that_of_the_tree_for_few_and_many_samples() {
+    for samples in [0, 1, 15, 16, 17, 33, 200] {
+        let (mut whole, mut blocks) = (PixelSum::<1>::default(), PixelSum::<1>::default());
+        for i in 0..samples {
+            whole.push([1.0 / (i as f32 + 0.3)]);
+            blocks.push([1.0 / (i as f32 + 0.3)]);
+        }
+        assert_eq!(bits(whole.total()), bits(blocks.finish().total()), "{samples} samples");
+    }
+}
+
+#[test]
 fn no_samples_sum_to_zero() {
     assert_eq!(PixelSum::<3>::default().finish().total(), [0.0; 3]);
 }
