@@ -11,9 +11,11 @@ mod packet;
 pub mod query;
 mod ray_scene;
 mod single;
+pub mod stream;
 #[cfg(test)]
 mod tests;
 mod traversal;
+mod unchecked;
 pub mod validate;
 
 use block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
@@ -101,14 +103,14 @@ impl Accel {
     fn visit_instances<T: Tier, Q: Query<T::Wide>>(
         &self,
         leaf: ChildRef,
-        rays: &PreparedRays<T>,
+        ray: &RayLanes<T::Wide>,
         query: &mut Q,
         mut traverse: impl FnMut(u32, &PreparedRays<T>, &mut Q),
     ) {
         let block = &self.instance_blocks[leaf.index() as usize];
         for &row in &block.rows[..block.len as usize] {
             let placed = &self.instances[row as usize];
-            let local = Self::local_rays(&placed.to_world, &rays.ray);
+            let local = Self::local_rays(&placed.to_world, ray);
             query.enter_instance(row + 1);
             traverse(placed.tree.node, &PreparedRays::new(local, placed.tree.scale), query);
         }

@@ -4,7 +4,7 @@ use wide::{f32x8, f64x8};
 
 use super::triangle::{MollerTrumbore, Woop};
 use super::{LaneHit, RayLanes, cylinder, sphere};
-use crate::math::{Lane, Real, Vec3};
+use crate::math::{Lane, Real, Vec3, WIDTH};
 
 /// A triangle test: what it prepares once a ray, and what it asks of a triangle.
 pub trait TriangleTest: Copy + Send + Sync + 'static {
@@ -18,6 +18,18 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
         prepared: &Self::Prepared<L>,
         vertices: [Vec3<L>; 3],
         limit: L,
+    ) -> LaneHit<L>;
+
+    /// What is computed once for a ray that meets eight triangles at a time.
+    type OneRay<R: Real>: Copy;
+    /// Prepares a ray.
+    fn prepare_one<R: Real>(ray: &RayLanes<R>) -> Self::OneRay<R>;
+    /// Meets one ray with eight triangles, stored by corner and axis: the bits of [`TriangleTest::test`].
+    fn test_one<L: Lane>(
+        ray: &RayLanes<L::Scalar>,
+        prepared: &Self::OneRay<L::Scalar>,
+        corners: &[[[f32; WIDTH]; 3]; 3],
+        limit: L::Scalar,
     ) -> LaneHit<L>;
 }
 

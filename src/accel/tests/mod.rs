@@ -2,6 +2,7 @@
 
 mod rays;
 mod scenes;
+mod streams;
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;

@@ -6,7 +6,7 @@
 //! **Source:** Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
 
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, fused_cross, fused_dot};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, fused_cross, fused_dot, three};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,5 +32,20 @@ impl TriangleTest for MollerTrumbore {
             return LaneHit::none();
         }
         LaneHit { mask, t: fused_dot(e2, q) * scale, u, v }
+    }
+
+    type OneRay<R: Real> = ();
+
+    #[inline(always)]
+    fn prepare_one<R: Real>(_: &RayLanes<R>) {}
+
+    #[inline(always)]
+    fn test_one<L: Lane>(
+        ray: &RayLanes<L::Scalar>,
+        _: &(),
+        corners: &[[[f32; WIDTH]; 3]; 3],
+        limit: L::Scalar,
+    ) -> LaneHit<L> {
+        Self::test(&RayLanes::splat(ray), &(), three(|v| Vec3::load_f32(&corners[v])), L::splat(limit))
     }
 }

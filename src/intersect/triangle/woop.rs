@@ -13,7 +13,7 @@
 use super::plane_coordinates;
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, three};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, three};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
@@ -87,27 +87,91 @@ impl TriangleTest for Woop {
 
     #[inline(always)]
     fn test<L: Lane>(ray: &RayLanes<L>, shear: &Shear<L>, v: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
-        let mask = inside_edges(ray, shear, v);
+        let mask = inside_edges(three(|k| shear.across(v[k] - ray.origin)));
         if !mask.any() {
             return LaneHit::none();
         }
-        let (lo, hi) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
-        let (first, last) = shear.own.interval(lo, hi);
-        let mask = mask & first.le(last) & ray.t_min.le(last) & first.le(limit);
+        within_own_box(mask, ray, &shear.own, v, limit)
+    }
+
+    type OneRay<R: Real> = OneShear<R>;
+
+    fn prepare_one<R: Real>(ray: &RayLanes<R>) -> OneShear<R> {
+        OneShear::new(ray)
+    }
+
+    #[inline(always)]
+    fn test_one<L: Lane>(
+        ray: &RayLanes<L::Scalar>,
+        shear: &OneShear<L::Scalar>,
+        corners: &[[[f32; WIDTH]; 3]; 3],
+        limit: L::Scalar,
+    ) -> LaneHit<L> {
+        let mask = inside_edges(three(|k| shear.across::<L>(&corners[k])));
         if !mask.any() {
             return LaneHit::none();
         }
-        let (t, u, v) = refine(ray, v);
-        LaneHit { mask, t: t.clamp(first, last), u, v }
+        let corners = three(|k| Vec3::load_f32(&corners[k]));
+        within_own_box(mask, &RayLanes::splat(ray), &OwnBox::splat(&shear.own), corners, L::splat(limit))
     }
 }
 
-/// Lanes whose rays pass on the same side of the three edges, or on one.
+/// [`Shear`] of one ray, with the axes as places in the columns of eight triangles: nothing to choose where rays of all
+/// directions follow each other.
+#[derive(Clone, Copy, Debug)]
+pub struct OneShear<R> {
+    /// Stored axes that stand for `x`, `y` and `z`.
+    axes: [u8; 3],
+    /// By the axes above.
+    origin: [R; 3],
+    shear: [R; 2],
+    own: OwnBox<R>,
+}
+
+impl<R: Real> OneShear<R> {
+    fn new(ray: &RayLanes<R>) -> Self {
+        let shear = Shear::new(ray);
+        let z = shear.shared.unwrap_or(2);
+        let axes = [(z + 1) % 3, (z + 2) % 3, z];
+        let origin = [ray.origin.x, ray.origin.y, ray.origin.z];
+        Self {
+            axes,
+            origin: three(|k| origin[axes[k] as usize]),
+            shear: [shear.shear_x, shear.shear_y],
+            own: shear.own,
+        }
+    }
+
+    /// The two coordinates across the ray of eight corners.
+    #[inline(always)]
+    fn across<L: Lane<Scalar = R>>(&self, corner: &[[f32; WIDTH]; 3]) -> (L, L) {
+        let [x, y, z] = three(|k| L::load_f32(&corner[self.axes[k] as usize]) - L::splat(self.origin[k]));
+        (x - L::splat(self.shear[0]) * z, y - L::splat(self.shear[1]) * z)
+    }
+}
+
+/// Of the lanes that passed the edges, those that meet the triangle's own box, with where.
 #[inline(always)]
-fn inside_edges<L: Lane>(ray: &RayLanes<L>, shear: &Shear<L>, v: [Vec3<L>; 3]) -> L::Mask {
-    let (ax, ay) = shear.across(v[0] - ray.origin);
-    let (bx, by) = shear.across(v[1] - ray.origin);
-    let (cx, cy) = shear.across(v[2] - ray.origin);
+fn within_own_box<L: Lane>(
+    mask: L::Mask,
+    ray: &RayLanes<L>,
+    own: &OwnBox<L>,
+    v: [Vec3<L>; 3],
+    limit: L,
+) -> LaneHit<L> {
+    let (lo, hi) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
+    let (first, last) = own.interval(lo, hi);
+    let mask = mask & first.le(last) & ray.t_min.le(last) & first.le(limit);
+    if !mask.any() {
+        return LaneHit::none();
+    }
+    let (t, u, v) = refine(ray, v);
+    LaneHit { mask, t: t.clamp(first, last), u, v }
+}
+
+/// Lanes whose rays pass on the same side of the three edges, or on one; from the corners' coordinates across the ray.
+#[inline(always)]
+fn inside_edges<L: Lane>([(ax, ay), (bx, by), (cx, cy)]: [(L, L); 3]) -> L::Mask {
     let e0 = cx * by - cy * bx;
     let e1 = ax * cy - ay * cx;
     let e2 = bx * ay - by * ax;
