@@ -170,3 +170,94 @@ pub fn comparison_table(comparisons: &[Comparison]) -> String {
     });
     aligned(&std::iter::once(head).chain(rows).collect::<Vec<_>>())
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::bench::{ClassReport, Difference, SceneReport, Settings, Spread};
+
+    /// One class of one scene, octray's rates as given.
+    fn report(class: &str, [min, median, max]: [f64; 3]) -> Report {
+        let engine = EngineReport {
+            engine: "octray".into(),
+            mode: "watertight".into(),
+            mrays_s: Spread { median, min, max },
+            differs: Difference::default(),
+            counters: None,
+        };
+        let class = ClassReport {
+            class: class.into(),
+            rays: 64,
+            hits: 32,
+            fingerprint: "0".into(),
+            brute_force_rays: 8,
+            visits: None,
+            roofline_share: None,
+            engines: vec![engine],
+        };
+        let scene = SceneReport {
+            scene: "seed".into(),
+            triangles: 1,
+            spheres: 0,
+            cylinders: 0,
+            builds: Vec::new(),
+            classes: vec![class],
+        };
+        Report {
+            octray: "test".into(),
+            settings: Settings { tier: "watertight".into(), threads: 1, size: [8, 8], runs: 3 },
+            peak_box_tests_s: 1e9,
+            scenes: vec![scene],
+        }
+    }
+
+    fn compared(then: [f64; 3], now: [f64; 3]) -> Comparison {
+        let text = serde_json::to_string(&report("primary", then)).unwrap();
+        let baseline = Baseline::parse(Path::new("then.json"), &text).unwrap();
+        baseline.compare(&report("primary", now)).unwrap().remove(0)
+    }
+
+    #[test]
+    fn only_what_noise_cannot_explain_is_a_regression() {
+        let then = [9.0, 10.0, 11.0];
+        let same = compared(then, then);
+        assert!(same.ratio == 1.0 && !same.is_regression() && !same.is_improvement());
+        let overlapping = compared(then, [8.0, 8.5, 9.2]);
+        assert!(!overlapping.is_regression(), "{overlapping:?}");
+        let slower = compared(then, [7.0, 7.5, 8.0]);
+        assert!(slower.is_regression() && slower.ratio == 0.75, "{slower:?}");
+        assert!(compared(then, [14.0, 15.0, 16.0]).is_improvement());
+        let steady = compared([10.0; 3], [9.7; 3]);
+        assert!(!steady.is_regression(), "3% is what two runs differ by: {steady:?}");
+        let table = comparison_table(&[slower]);
+        assert!(table.contains("slower") && table.contains("0.750"), "{table}");
+    }
+
+    #[test]
+    fn bad_baselines_say_where_and_what() {
+        let whole = serde_json::to_string_pretty(&report("primary", [1.0; 3])).unwrap();
+        for (text, line, part) in [
+            ("", 1, "EOF"),
+            ("[]", 1, "struct Report"),
+            ("{\n  \"octray\": 3\n}", 2, "string"),
+            (&whole.replace("\"octray\": \"test\"", "\"octary\": \"test\""), 2, "octary"),
+            (&whole.replace("\"min\": 1.0", "\"min\": \"one\""), 37, "one"),
+        ] {
+            let error = Baseline::parse(Path::new("b.json"), text).unwrap_err();
+            let BaselineError::Malformed { line: at, .. } = &error else { panic!("{error}") };
+            let message = error.to_string();
+            assert!(message.contains(part) && message.starts_with("b.json:"), "{message}");
+            assert_eq!(*at, line, "{message}");
+        }
+    }
+
+    #[test]
+    fn other_settings_and_other_scenes_do_not_compare() {
+        let baseline = Baseline { path: "b.json".into(), report: report("primary", [1.0; 3]) };
+        let mut other = report("primary", [1.0; 3]);
+        other.settings.tier = "fast".into();
+        assert!(baseline.compare(&other).unwrap_err().to_string().contains("tier watertight"));
+        let error = baseline.compare(&report("shadow", [1.0; 3])).unwrap_err();
+        assert!(matches!(error, BaselineError::Nothing { .. }), "{error}");
+    }
+}

@@ -121,3 +121,36 @@ fn test(
     };
     query.accept(ray, &hit, id.0);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::bench::subject::View;
+    use crate::measure::bench::testing::subject;
+    use crate::measure::bench::{Class, ray_set};
+
+    /// Each hit takes a block, each block a node, and no ray more than there are.
+    #[test]
+    fn visits_lie_between_what_is_needed_and_what_there_is() {
+        for name in ["terrain:2000", "spheres"] {
+            let subject = subject(name, View::Outside);
+            for class in Class::ALL {
+                let rays = ray_set(&subject, class, [64, 64]);
+                let visits = count_visits(&subject, class.question(), &rays).unwrap();
+                let most = subject.accel.nodes().0.len() as f64;
+                assert!(visits.nodes >= 1.0 && visits.nodes < most, "{name} {class}: {visits:?}");
+                assert!(
+                    visits.blocks > 0.0 && visits.blocks < visits.nodes * 8.0,
+                    "{name} {class}: {visits:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn trees_below_leaves_are_not_counted() {
+        let subject = subject("instances", View::Scene);
+        let rays = ray_set(&subject, Class::Primary, [8, 8]);
+        assert_eq!(count_visits(&subject, Question::Closest, &rays), None);
+    }
+}

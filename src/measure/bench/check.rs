@@ -188,3 +188,76 @@ fn lone_ray<T: Tier>(rays: &RaySet, i: usize) -> RayLanes<T::Real> {
         t_max: real(ray.t_max),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::intersect::Watertight;
+    use crate::measure::bench::engine::{Engine, ask};
+    use crate::measure::bench::octray::Octray;
+    use crate::measure::bench::subject::View;
+    use crate::measure::bench::testing::{Liar, subject};
+    use crate::measure::bench::{Class, ray_set};
+
+    fn answers(engine: &dyn Engine, question: Question, rays: &RaySet) -> Answers {
+        let mut answers = Answers::new(question, rays.len());
+        ask(engine, question, rays, &mut answers);
+        answers
+    }
+
+    /// Answers of octray, the plain ones, and those of a liar about a ray that hits.
+    fn three(subject: &Subject, question: Question, rays: &RaySet, off: f32) -> ([Answers; 3], usize) {
+        let (octray, plain) =
+            (Octray::<Watertight>::new(&subject.accel), Octray::<Watertight>::plain(&subject.accel));
+        let honest = answers(&octray, Question::Closest, rays);
+        let ray = honest.hits.prim.iter().position(|&prim| prim != NO_HIT).unwrap();
+        let liar = Liar { honest: octray, ray, off };
+        ([&octray as &dyn Engine, &plain, &liar].map(|engine| answers(engine, question, rays)), ray)
+    }
+
+    #[test]
+    fn honest_answers_pass_and_one_lie_is_found() {
+        let subject = subject("cornell", View::Scene);
+        let rays = ray_set(&subject, Class::Primary, [64, 64]);
+        let tier = TierName::Watertight;
+        for question in [Question::Closest, Question::Any] {
+            let ([honest, plain, lying], ray) = three(&subject, question, &rays, 1e-5);
+            assert_eq!(agree("octray", &honest, &plain, tier), Ok(()));
+            assert_eq!(difference(&honest, &plain), Difference::default());
+            assert_eq!(fingerprint(&honest), fingerprint(&plain));
+            let found = agree("liar", &lying, &plain, tier).unwrap_err();
+            assert_eq!((found.ray, found.engine.as_str()), (ray, "liar"));
+            assert_ne!(fingerprint(&lying), fingerprint(&plain));
+        }
+    }
+
+    #[test]
+    fn every_primitive_is_asked_for_some_rays() {
+        let subject = subject("cornell", View::Scene);
+        let rays = ray_set(&subject, Class::Primary, [16, 16]);
+        let brute = BruteForce::of::<Watertight>(&subject, &rays);
+        assert_eq!(brute.len(), 256);
+        for question in [Question::Closest, Question::Any] {
+            let ([honest, _, lying], ray) = three(&subject, question, &rays, 1e-5);
+            assert_eq!(brute.agrees("octray", question, &honest, TierName::Watertight), Ok(()));
+            let found = brute.agrees("liar", question, &lying, TierName::Watertight).unwrap_err();
+            assert_eq!((found.ray, found.reference), (ray, "testing every primitive"));
+        }
+    }
+
+    #[test]
+    fn other_ray_tracers_may_round_but_not_miss() {
+        let subject = subject("cornell", View::Scene);
+        let rays = ray_set(&subject, Class::Primary, [16, 16]);
+        let differs = |off| {
+            let ([honest, _, lying], _) = three(&subject, Question::Closest, &rays, off);
+            difference(&honest, &lying).hits
+        };
+        assert_eq!((differs(1e-5), differs(10.0)), (0, 1));
+        let ([honest, _, mut other], ray) = three(&subject, Question::Closest, &rays, 0.0);
+        other.hits.prim[ray] ^= 1;
+        assert_eq!(difference(&honest, &other), Difference { hits: 0, primitives: 1 });
+        other.hits.prim[ray] = NO_HIT;
+        assert_eq!(difference(&honest, &other), Difference { hits: 1, primitives: 0 });
+    }
+}

@@ -144,3 +144,79 @@ fn leave(subject: &Subject, class: Class, seen: &Seen, [u, v, ..]: [f64; 4]) -> 
         _ => (to_frame(cosine_hemisphere(u, v), n), f32::INFINITY),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accel::brute;
+    use crate::intersect::Ray;
+    use crate::measure::bench::subject::View;
+    use crate::measure::bench::testing::subject;
+
+    const SIZE: [u32; 2] = [16, 16];
+
+    #[test]
+    fn pixels_come_once_each_and_in_blocks_of_neighbours() {
+        for size in [[16, 16], [9, 3], [1, 1], [64, 8]] {
+            let all = pixels(size);
+            let mut sorted = all.clone();
+            sorted.sort_unstable();
+            sorted.dedup();
+            assert_eq!((all.len(), sorted.len()), ((size[0] * size[1]) as usize, all.len()));
+        }
+        assert_eq!(pixels([16, 16])[..8], [[0, 0], [1, 0], [2, 0], [3, 0], [0, 1], [1, 1], [2, 1], [3, 1]]);
+        assert_eq!(pixels([16, 16])[63], [7, 7]);
+        assert_eq!(pixels([16, 16])[64], [8, 0]);
+    }
+
+    #[test]
+    fn the_same_rays_every_time_and_in_any_number_of_threads() {
+        let subject = subject("instances", View::Scene);
+        for class in Class::ALL {
+            let rays = ray_set(&subject, class, SIZE);
+            assert!(!rays.is_empty(), "{class}");
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(3).build().unwrap();
+            assert!(rays == pool.install(|| ray_set(&subject, class, SIZE)), "{class}");
+        }
+    }
+
+    #[test]
+    fn rays_that_leave_a_sphere_do_not_hit_it() {
+        let subject = subject("spheres", View::Scene);
+        for class in [Class::Reflect, Class::Diffuse, Class::Ao] {
+            let rays = ray_set(&subject, class, SIZE);
+            let columns = rays.columns();
+            for i in 0..rays.len() {
+                let [origin, direction] = columns.ray(i);
+                let ray = Ray { origin, direction, t_min: rays.t_min[i], t_max: rays.t_max[i] };
+                let hit = brute::closest::<Watertight>(&subject.geometry, &RayLanes::from(&ray));
+                assert!(hit.is_none_or(|hit| hit.t > 1e-3), "{class} {i}: {hit:?}");
+            }
+        }
+    }
+
+    #[test]
+    fn shadow_rays_end_at_the_light_and_short_ones_soon() {
+        let subject = subject("cornell", View::Scene);
+        let Target::Point(light) = subject.light else { panic!("cornell has a light with a place") };
+        let rays = ray_set(&subject, Class::Shadow, SIZE);
+        for i in 0..rays.len() {
+            let [origin, direction] = rays.columns().ray(i);
+            let ends = (0..3).all(|k| (f64::from(origin[k] + direction[k]) - light[k]).abs() < 1e-4);
+            assert!(ends && rays.t_max[i] == 1.0, "{i}");
+        }
+        let short = ray_set(&subject, Class::Ao, SIZE);
+        assert!(short.t_max.iter().all(|&t| f64::from(t) < 0.06 * subject.diagonal()));
+    }
+
+    #[test]
+    fn random_rays_start_within_the_bounds_and_go_everywhere() {
+        let subject = subject("spheres", View::Scene);
+        let (rays, bounds) = (ray_set(&subject, Class::Random, [64, 64]), subject.accel.bounds());
+        for k in 0..3 {
+            assert!(rays.origin[k].iter().all(|&x| bounds.min[k] <= x && x <= bounds.max[k]));
+            let mean = rays.direction[k].iter().sum::<f32>() / rays.len() as f32;
+            assert!(mean.abs() < 0.03, "axis {k}: {mean}");
+        }
+    }
+}

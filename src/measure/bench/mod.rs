@@ -17,6 +17,8 @@ mod roofline;
 mod run;
 mod subject;
 mod table;
+#[cfg(test)]
+mod testing;
 mod timing;
 
 pub use baseline::{Baseline, BaselineError, Comparison, comparison_table};

@@ -45,7 +45,7 @@ pub struct PeerScene {
 pub struct BenchError {
     scene: String,
     class: Class,
-    cause: Mismatch,
+    cause: Box<Mismatch>,
 }
 
 /// Measures a scene with the threads of `pool`. `progress` is told what is being done.
@@ -114,7 +114,11 @@ fn classes<T: Tier>(
         }
         progress(&format!("{subject}, {class}: {} rays", rays.len()));
         let report = bench.measure::<T>(class, &rays);
-        reports.push(report.map_err(|cause| BenchError { scene: subject.to_string(), class, cause })?);
+        reports.push(report.map_err(|cause| BenchError {
+            scene: subject.to_string(),
+            class,
+            cause: Box::new(cause),
+        })?);
     }
     Ok(reports)
 }
@@ -208,4 +212,58 @@ impl Bench<'_> {
 
 fn title(engine: &dyn Engine) -> String {
     format!("{} ({})", engine.name(), engine.mode())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::bench::subject::View;
+    use crate::measure::bench::testing::{Liar, subject};
+
+    fn options(tier: TierName) -> Options {
+        Options { classes: Class::ALL.to_vec(), tier, size: [24, 24], runs: 2, peak_box_tests_s: 1e9 }
+    }
+
+    fn pool(threads: usize) -> ThreadPool {
+        rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap()
+    }
+
+    #[test]
+    fn every_class_in_every_tier_with_any_threads() {
+        let subject = subject("cornell", View::Scene);
+        let hits = |report: &SceneReport| -> Vec<(usize, String)> {
+            report.classes.iter().map(|class| (class.hits, class.fingerprint.clone())).collect()
+        };
+        for tier in [TierName::Fast, TierName::Watertight, TierName::Exact] {
+            let alone = bench_scene(&subject, &[], &options(tier), &pool(1), &|_| ()).unwrap();
+            let shared = bench_scene(&subject, &[], &options(tier), &pool(3), &|_| ()).unwrap();
+            assert_eq!(alone.classes.len(), 6);
+            assert_eq!(hits(&alone), hits(&shared));
+            assert!(alone.classes.iter().all(|class| class.octray().unwrap().mrays_s.min > 0.0));
+        }
+    }
+
+    #[test]
+    fn other_engines_stand_beside_with_what_they_get_wrong() {
+        // Outlives the engine, which peers hold in boxes.
+        let subject: &'static Subject = Box::leak(Box::new(subject("seed", View::Scene)));
+        let liar = Liar { honest: Octray::<Watertight>::new(&subject.accel), ray: 5, off: 50.0 };
+        let peer = PeerScene { build: own_build(subject), engines: vec![Box::new(liar)] };
+        let options = Options { classes: vec![Class::Shadow], ..options(TierName::Watertight) };
+        let report = bench_scene(subject, &[peer], &options, &pool(1), &|_| ()).unwrap();
+        let class = &report.classes[0];
+        assert_eq!(class.engines.iter().map(|e| e.differs.hits).collect::<Vec<_>>(), [0, 1]);
+        assert!(class.ratio_to("liar").is_some() && class.ratio_to("embree").is_none());
+        assert_eq!(report.builds.len(), 2);
+    }
+
+    #[test]
+    fn a_camera_that_sees_nothing_gives_no_secondary_rays() {
+        let mut subject = subject("cornell", View::Scene);
+        subject.camera.position = [1e4, 1e4, 1e4];
+        subject.camera.forward = [1.0, 0.0, 0.0];
+        let report = bench_scene(&subject, &[], &options(TierName::Watertight), &pool(1), &|_| ()).unwrap();
+        let names: Vec<&str> = report.classes.iter().map(|class| class.class.as_str()).collect();
+        assert_eq!(names, ["primary", "random"]);
+    }
 }

@@ -226,3 +226,52 @@ fn target(lights: &[Light], factor: f64, bounds: &Aabb) -> Target {
         _ => Target::Point(to_light.map(|x| x * factor)),
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::measure::bench::testing::subject;
+
+    #[test]
+    fn scenes_come_to_a_common_size() {
+        for name in ["seed", "cornell", "spheres", "terrain:200", "instances"] {
+            let subject = subject(name, View::Scene);
+            assert!((70.0..142.0).contains(&subject.diagonal()), "{name}: {}", subject.diagonal());
+            assert_eq!(subject.geometry.planes.len(), 0, "{name}");
+        }
+    }
+
+    /// Through the middle of the film lies the middle of the bounds, and every corner lies on the film, one at its edge.
+    #[test]
+    fn the_outside_camera_sees_all_corners() {
+        let subject = subject("terrain:2000", View::Outside);
+        let camera = &subject.camera;
+        let [position, forward, right, up] =
+            [camera.position, camera.forward, camera.right, camera.up].map(Vec3::<f64>::splat);
+        let mut farthest = 0.0f64;
+        for corner in subject.accel.bounds().corners() {
+            let way = Vec3::<f64>::splat(corner.map(f64::from)) - position;
+            let depth = way.dot(forward);
+            let film = |axis: Vec3<f64>| way.dot(axis) / depth / axis.length_squared();
+            farthest = farthest.max(film(right).abs()).max(film(up).abs());
+        }
+        assert!((farthest - 1.0).abs() < 1e-9, "{farthest}");
+    }
+
+    #[test]
+    fn the_inside_camera_looks_along_the_longest_axis() {
+        let subject = subject("terrain:2000", View::Inside);
+        let size = subject.accel.bounds().size();
+        let along = subject.camera.forward.iter().position(|&x| x == 1.0).unwrap();
+        assert!(size.iter().all(|&s| s <= size[along]));
+        assert_eq!(subject.to_string(), "terrain:2000@inside");
+    }
+
+    #[test]
+    fn views_are_read_back() {
+        for name in View::NAMES {
+            assert_eq!(name.parse::<View>().unwrap().name(), name);
+        }
+        assert!("above".parse::<View>().unwrap_err().contains("inside"));
+    }
+}

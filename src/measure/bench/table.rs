@@ -4,7 +4,7 @@ use super::report::{ClassReport, Report};
 
 /// Rates and ratios of every class, their means over scenes, and what building cost.
 pub fn table(report: &Report) -> String {
-    let peers = report.peers();
+    let peers: Vec<Peer<'_>> = report.peers().into_iter().map(|name| Peer::of(report, name)).collect();
     let rays = ray_rows(report, &peers);
     let means = mean_rows(report, &peers);
     let (rows, builds) = ([rays, means].concat(), build_rows(report));
@@ -26,16 +26,16 @@ pub fn table(report: &Report) -> String {
 
 type Row = Vec<String>;
 
-fn ray_rows(report: &Report, peers: &[&str]) -> Vec<Row> {
+fn ray_rows(report: &Report, peers: &[Peer<'_>]) -> Vec<Row> {
     let head = ["scene", "class", "rays", "hit", "octray", "+-", "nodes", "blocks", "roof"];
     let mut head: Row = head.map(String::from).to_vec();
-    head.extend(peers.iter().flat_map(|peer| [peer, "best mode", "differ", "octray is"].map(String::from)));
+    head.extend(peers.iter().flat_map(|peer| peer.head()));
     let mut rows = vec![head];
     for scene in &report.scenes {
         rows.extend(scene.classes.iter().map(|class| {
             let mut row = vec![scene.scene.clone()];
             row.extend(own_cells(class));
-            row.extend(peers.iter().flat_map(|peer| peer_cells(class, peer)));
+            row.extend(peers.iter().flat_map(|peer| peer.cells(class)));
             row
         }));
     }
@@ -59,20 +59,43 @@ fn own_cells(class: &ClassReport) -> Row {
     ]
 }
 
-fn peer_cells(class: &ClassReport, peer: &str) -> [String; 4] {
-    match (class.best_of(peer), class.ratio_to(peer)) {
-        (Some(best), Some(ratio)) => [
-            format!("{:.2}", best.mrays_s.median),
-            best.mode.clone(),
-            best.differs.hits.to_string(),
-            format!("{ratio:.2}x"),
-        ],
-        _ => ["-"; 4].map(String::from),
+/// The columns of another ray tracer.
+struct Peer<'a> {
+    name: &'a str,
+    /// It has more than one mode, of which the best is named.
+    has_modes: bool,
+}
+
+impl<'a> Peer<'a> {
+    fn of(report: &'a Report, name: &'a str) -> Self {
+        let classes = report.scenes.iter().flat_map(|scene| &scene.classes);
+        let has_modes =
+            classes.into_iter().any(|c| c.engines.iter().filter(|e| e.engine == name).count() > 1);
+        Self { name, has_modes }
+    }
+    fn head(&self) -> Row {
+        self.row([self.name, "best mode", "differ", "octray is"].map(String::from))
+    }
+    fn cells(&self, class: &ClassReport) -> Row {
+        let Some((best, ratio)) = class.best_of(self.name).zip(class.ratio_to(self.name)) else {
+            return self.row(["-"; 4].map(String::from));
+        };
+        let differ = best.differs.hits.to_string();
+        self.row([format!("{:.2}", best.mrays_s.median), best.mode.clone(), differ, format!("{ratio:.2}x")])
+    }
+    fn means(&self, classes: &[&ClassReport]) -> Row {
+        let rate = geometric_mean(classes.iter().filter_map(|c| Some(c.best_of(self.name)?.mrays_s.median)));
+        let ratio = geometric_mean(classes.iter().filter_map(|c| c.ratio_to(self.name)));
+        let text = |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.2}{unit}"));
+        self.row([text(rate, ""), String::new(), String::new(), text(ratio, "x")])
+    }
+    fn row(&self, [rate, mode, differ, ratio]: [String; 4]) -> Row {
+        if self.has_modes { vec![rate, mode, differ, ratio] } else { vec![rate, differ, ratio] }
     }
 }
 
 /// Geometric means over the scenes, a class a row.
-fn mean_rows(report: &Report, peers: &[&str]) -> Vec<Row> {
+fn mean_rows(report: &Report, peers: &[Peer<'_>]) -> Vec<Row> {
     let classes: Vec<&ClassReport> = report.scenes.iter().flat_map(|scene| &scene.classes).collect();
     let mut names: Vec<&str> = Vec::new();
     for class in &classes {
@@ -81,17 +104,12 @@ fn mean_rows(report: &Report, peers: &[&str]) -> Vec<Row> {
         }
     }
     let row = |name: &&str| {
-        let of: Vec<&&ClassReport> = classes.iter().filter(|class| class.class == *name).collect();
+        let of: Vec<&ClassReport> = classes.iter().copied().filter(|class| class.class == *name).collect();
         let rate = geometric_mean(of.iter().filter_map(|c| Some(c.octray()?.mrays_s.median)));
         let mut row: Row = ["geometric mean", name, "", ""].map(String::from).to_vec();
         row.push(rate.map_or("-".into(), |rate| format!("{rate:.2}")));
         row.extend([""; 4].map(String::from));
-        for peer in peers {
-            let rate = geometric_mean(of.iter().filter_map(|c| Some(c.best_of(peer)?.mrays_s.median)));
-            let ratio = geometric_mean(of.iter().filter_map(|c| c.ratio_to(peer)));
-            let text = |value: Option<f64>, unit: &str| value.map_or("-".into(), |v| format!("{v:.2}{unit}"));
-            row.extend([text(rate, ""), String::new(), String::new(), text(ratio, "x")]);
-        }
+        row.extend(peers.iter().flat_map(|peer| peer.means(&of)));
         row
     };
     if report.scenes.len() < 2 { Vec::new() } else { names.iter().map(row).collect() }

@@ -8,6 +8,7 @@
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 use std::path::Path;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicIsize, Ordering};
 
 use libloading::os::unix::{Library, RTLD_GLOBAL, RTLD_NOW};
 
@@ -15,6 +16,16 @@ use super::layout::{Handle, QueryArguments, Ray, Ray8, RayHit, RayHit8, Valid8};
 
 /// Number of the device property that holds the major version.
 const VERSION_MAJOR: c_int = 1;
+
+/// Told of every allocation before, and of every release after: false would refuse it.
+type MemoryMonitor = extern "C" fn(*mut c_void, isize, bool) -> bool;
+
+/// Adds what Embree takes or gives back to the counter at `bytes`.
+extern "C" fn count_bytes(bytes: *mut c_void, taken: isize, _: bool) -> bool {
+    // SAFETY: the pointer is that of the counter that `Embree::device` made, which lives until the process ends.
+    unsafe { &*bytes.cast::<AtomicIsize>() }.fetch_add(taken, Ordering::Relaxed);
+    true
+}
 
 macro_rules! functions {
     ($($field:ident = $name:literal: fn($($argument:ty),*) $(-> $result:ty)?;)*) => {
@@ -37,6 +48,7 @@ functions! {
     new_device = b"rtcNewDevice\0": fn(*const c_char) -> Handle;
     release_device = b"rtcReleaseDevice\0": fn(Handle);
     device_property = b"rtcGetDeviceProperty\0": fn(Handle, c_int) -> isize;
+    set_memory_monitor = b"rtcSetDeviceMemoryMonitorFunction\0": fn(Handle, MemoryMonitor, *mut c_void);
     device_error = b"rtcGetDeviceError\0": fn(Handle) -> c_int;
     new_scene = b"rtcNewScene\0": fn(Handle) -> Handle;
     set_scene_flags = b"rtcSetSceneFlags\0": fn(Handle, c_int);
@@ -86,10 +98,14 @@ impl Embree {
         // SAFETY: the text ends with a zero and outlives the call.
         let handle = unsafe { (self.0.new_device)(config.as_ptr()) };
         if handle.is_null() {
-            Err("Embree makes no device".into())
-        } else {
-            Ok(Device { embree: self.clone(), handle })
+            return Err("Embree makes no device".into());
         }
+        // Scenes outlive their device and release their memory last, so the counter must outlive all of them.
+        let bytes: &'static AtomicIsize = Box::leak(Box::default());
+        let counter = std::ptr::from_ref(bytes).cast_mut().cast();
+        // SAFETY: the device is alive; the counter is shared and only ever changed atomically.
+        unsafe { (self.0.set_memory_monitor)(handle, count_bytes, counter) };
+        Ok(Device { embree: self.clone(), handle, bytes })
     }
 }
 
@@ -97,6 +113,7 @@ impl Embree {
 pub(super) struct Device {
     embree: Embree,
     handle: Handle,
+    bytes: &'static AtomicIsize,
 }
 
 impl Drop for Device {
@@ -186,14 +203,16 @@ impl SceneBuilder<'_> {
         Ok(())
     }
 
-    /// Builds the tree.
-    pub(super) fn commit(self) -> Result<Scene, String> {
+    /// Builds the tree; gives it with the bytes that it took.
+    pub(super) fn commit(self) -> Result<(Scene, isize), String> {
+        let before = self.device.bytes.load(Ordering::Relaxed);
         // SAFETY: scene and device are alive.
         let error = unsafe {
             (self.scene.embree.0.commit_scene)(self.scene.handle);
             (self.scene.embree.0.device_error)(self.device.handle)
         };
-        if error == 0 { Ok(self.scene) } else { Err(format!("Embree's error {error}")) }
+        let bytes = self.device.bytes.load(Ordering::Relaxed) - before;
+        if error == 0 { Ok((self.scene, bytes)) } else { Err(format!("Embree's error {error}")) }
     }
 }
 

@@ -30,14 +30,15 @@ pub(super) fn build(
     let mut builder = device.scene(quality.flags, quality.quality);
     let kinds = add_all(&mut builder, &subject.geometry)?;
     let start = Instant::now();
-    let scene = builder.commit()?;
+    let (scene, bytes) = builder.commit()?;
     let seconds = start.elapsed().as_secs_f64();
+    let count = subject.primitive_count() as f64;
     let report = BuildReport {
         engine: NAME.into(),
         mode: quality.name.into(),
         seconds,
-        mprims_s: subject.primitive_count() as f64 / seconds / 1e6,
-        bytes_a_prim: None,
+        mprims_s: count / seconds / 1e6,
+        bytes_a_prim: Some(bytes as f64 / count),
     };
     Ok((scene, kinds, report))
 }
