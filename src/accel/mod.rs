@@ -18,10 +18,10 @@ mod traversal;
 mod unchecked;
 pub mod validate;
 
-use block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
+use block::{Block, CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
 use node::{ChildRef, Node8};
 
-use crate::intersect::{RayLanes, Tier};
+use crate::intersect::{PrimKind, RayLanes, Tier};
 use crate::math::{Aabb, Lane, Transform, Vec3};
 use leaf::PreparedRays;
 use query::Query;
@@ -84,6 +84,28 @@ impl Accel {
             ("tree.instances", size_of_val(&self.instance_blocks[..]) + size_of_val(&self.instances[..])),
         ];
         sizes.map(|(name, size)| (name.to_owned(), size as u64)).to_vec()
+    }
+
+    /// All nodes, and the root of the world's tree among them, for walks that count.
+    pub(crate) fn nodes(&self) -> (&[Node8], ChildRef) {
+        (&self.nodes, ChildRef::node(self.world.node))
+    }
+    /// Largest coordinate of the world's tree.
+    pub(crate) fn scale(&self) -> f32 {
+        self.world.scale
+    }
+    /// Ids of the primitives in a leaf; none in a leaf of instances.
+    pub(crate) fn leaf_ids(&self, leaf: ChildRef) -> &[u32] {
+        fn counted(block: &impl Block) -> &[u32] {
+            &block.ids()[..block.count() as usize]
+        }
+        let i = leaf.index() as usize;
+        match leaf.kind() {
+            k if k == PrimKind::Triangle as u8 => counted(&self.triangles[i]),
+            k if k == PrimKind::Sphere as u8 => counted(&self.spheres[i]),
+            k if k == PrimKind::Cylinder as u8 => counted(&self.cylinders[i]),
+            _ => &[],
+        }
     }
 
     /// Rays in the space of an instance; `t` keeps its meaning, since directions keep their lengths' ratio.
