@@ -2,7 +2,7 @@
 
 use crate::geometry::Geometry;
 use crate::intersect::{PrimId, PrimKind, cylinder, sphere};
-use crate::math::{Lane, Mask, Vec3, WIDTH, three};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, three};
 use wide::f32x8;
 
 /// How a leaf is walked: which primitive stands in which lane at a step.
@@ -133,6 +133,11 @@ impl TriangleBlock {
             .each_ref()
             .map(|vertex| t.position.each_ref().map(|axis| lanes(rows, |r| axis[vertex[r] as usize])));
         Self { corner, id: ids(rows, PrimKind::Triangle), len: rows.len() as u32 }
+    }
+    /// The corners of triangle `i`.
+    #[inline(always)]
+    pub fn corners_of<R: Real>(&self, i: usize) -> [Vec3<R>; 3] {
+        three(|v| Vec3::splat_f32(three(|k| self.corner[v][k][i])))
     }
     /// Corners, axes and triangles.
     #[inline(always)]

@@ -7,6 +7,7 @@ pub mod build;
 mod descend;
 mod leaf;
 pub mod node;
+mod order;
 mod packet;
 pub mod query;
 mod ray_scene;

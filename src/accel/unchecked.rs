@@ -10,7 +10,8 @@ use wide::{f32x8, u32x8};
 use super::Accel;
 use super::block::TriangleBlock;
 use super::node::{ChildRef, Node8};
-use crate::math::WIDTH;
+use super::order::ascending;
+use crate::math::{Lane, Mask, WIDTH};
 
 /// The node that a reference leads to.
 #[inline(always)]
@@ -89,18 +90,39 @@ impl Stacks {
         ChildRef::from_bits(unsafe { *self.child.get_unchecked(at) })
     }
 
-    /// Keeps those of the entries before `top` that the ray enters within its limit; gives the new top.
+    /// Keeps those of the entries from the first to before `top` that the ray enters within its limit; gives the new top.
     #[inline(always)]
     pub(super) fn keep_within(&mut self, stack: usize, top: usize, limit: f32) -> usize {
-        let child = &mut self.child[stack * self.stride..][..top];
-        let near = &mut self.near[stack * self.stride..][..top];
+        let limit = f32x8::splat(limit);
         let mut kept = 1;
-        for place in 1..top {
-            (child[kept], near[kept]) = (child[place], near[place]);
-            kept += usize::from(near[place] <= limit);
+        for place in (1..top).step_by(WIDTH) {
+            let (child, near) = self.read(stack, place);
+            let inside = Lane::le(near, limit).bits() & first_lanes(top - place);
+            let order = ascending(inside);
+            self.write(stack, kept, child.shuffle_wrapping(order), near.shuffle_wrapping(order));
+            kept += inside.count_ones() as usize;
         }
-        kept.min(top)
+        kept
     }
+
+    /// Eight entries of a stack from `place` on.
+    #[inline(always)]
+    fn read(&self, stack: usize, place: usize) -> (u32x8, f32x8) {
+        let at = stack * self.stride + place;
+        debug_assert!(place + WIDTH <= self.stride && at + WIDTH <= self.child.len());
+        // SAFETY: as for writing: what is on a stack lies within it, and eight more entries do.
+        unsafe {
+            let child = *self.child.as_ptr().add(at).cast::<[u32; WIDTH]>();
+            let near = *self.near.as_ptr().add(at).cast::<[f32; WIDTH]>();
+            (u32x8::new(child), f32x8::new(near))
+        }
+    }
+}
+
+/// Bits of the first `count` lanes, of all eight if there are more.
+#[inline(always)]
+fn first_lanes(count: usize) -> u32 {
+    if count < WIDTH { (1 << count) - 1 } else { 0xff }
 }
 
 /// A list of slots with room for all of them.

@@ -24,13 +24,19 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
     type OneRay<R: Real>: Copy;
     /// Prepares a ray.
     fn prepare_one<R: Real>(ray: &RayLanes<R>) -> Self::OneRay<R>;
-    /// Meets one ray with eight triangles, stored by corner and axis: the bits of [`TriangleTest::test`].
-    fn test_one<L: Lane>(
+    /// Of eight triangles, stored by corner and axis, the lanes that [`TriangleTest::test`] may accept, as bits.
+    fn candidates<L: Lane>(
         ray: &RayLanes<L::Scalar>,
         prepared: &Self::OneRay<L::Scalar>,
         corners: &[[[f32; WIDTH]; 3]; 3],
-        limit: L::Scalar,
-    ) -> LaneHit<L>;
+    ) -> u32;
+    /// [`TriangleTest::test`] of a candidate.
+    fn test_candidate<R: Real>(
+        ray: &RayLanes<R>,
+        prepared: &Self::OneRay<R>,
+        vertices: [Vec3<R>; 3],
+        limit: R,
+    ) -> LaneHit<R>;
 }
 
 /// How spheres and cylinders are decided.

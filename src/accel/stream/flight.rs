@@ -17,6 +17,7 @@ use crate::accel::Accel;
 use crate::accel::block::{Block, PrimitivesByRay};
 use crate::accel::leaf::{BlockVisitor, TestRays, Testable, with_block};
 use crate::accel::node::{ChildRef, Node8};
+use crate::accel::order::far_first;
 use crate::accel::query::Query;
 use crate::accel::traversal::ask_planes;
 use crate::accel::unchecked::{self, Slots, Stacks};
@@ -35,33 +36,8 @@ const FEW: usize = 12;
 /// Rays that are done before others start in their place.
 const DONE: usize = 8;
 
-/// Visiting order by octant and by the children that a ray meets: places of the children in four bits each, the last
-/// to visit lowest.
-static ORDER: [[u32; 256]; WIDTH] = orders();
-
-const fn orders() -> [[u32; 256]; WIDTH] {
-    let mut table = [[0; 256]; WIDTH];
-    let mut octant = 0;
-    while octant < WIDTH {
-        let mut meets = 0;
-        while meets < 256 {
-            let (mut i, mut count) = (WIDTH, 0);
-            while i > 0 {
-                i -= 1;
-                let slot = i ^ octant;
-                if meets >> slot & 1 != 0 {
-                    table[octant][meets] |= (slot as u32) << (4 * count);
-                    count += 1;
-                }
-            }
-            meets += 1;
-        }
-        octant += 1;
-    }
-    table
-}
-
-/// A ray under way.
+/// A ray under way; what the node pass needs stands first, in one cache line.
+#[repr(C, align(64))]
 struct Slot<T: Tier, Q> {
     cull: CullRay<f32>,
     t_min: f32,
@@ -72,6 +48,8 @@ struct Slot<T: Tier, Q> {
     /// Entries on the stack, with the one at the bottom that says it is empty.
     top: u32,
     row: u32,
+    /// Lanes of the leaf that is next.
+    candidates: u32,
     ray: RayLanes<T::Real>,
     triangle: <T::Triangle as TriangleTest>::OneRay<T::Real>,
     query: Q,
@@ -82,6 +60,7 @@ pub(super) struct Flight<T: Tier, Q> {
     slots: Vec<Slot<T, Q>>,
     in_nodes: Slots<LIST>,
     in_leaves: Slots<LIST>,
+    candidates: Slots<LIST>,
     done: Slots<LIST>,
     stacks: Stacks,
 }
@@ -92,6 +71,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             slots: Vec::with_capacity(SLOTS),
             in_nodes: Slots::new(),
             in_leaves: Slots::new(),
+            candidates: Slots::new(),
             done: Slots::new(),
             stacks: Stacks::new(SLOTS, accel.stack_bound),
         }
@@ -136,8 +116,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             let slot = &mut self.slots[at];
             let node = unchecked::node(accel, slot.next);
             let (enter, meets) = slot.children(node);
-            let order = ORDER[slot.octant as usize & 7][meets as usize & 0xff];
-            let order = u32x8::splat(order) >> u32x8::new([0, 4, 8, 12, 16, 20, 24, 28]);
+            let order = far_first(slot.octant, meets);
             let child = u32x8::new(node.child.map(ChildRef::bits)).shuffle_wrapping(order);
             let near = enter.shuffle_wrapping(order);
             let top = slot.top as usize;
@@ -160,20 +139,31 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         self.done.push_if(next == Stacks::END, at);
     }
 
-    /// Tests the leaves that have gathered.
+    /// Tests the leaves that have gathered: first all for lanes that may be hit, then those lanes.
     #[inline(always)]
     fn leaf_pass(&mut self, accel: &Accel) {
+        self.candidates.clear();
+        for i in 0..self.in_leaves.len() {
+            let at = self.in_leaves.get(i);
+            let slot = &mut self.slots[at];
+            slot.candidates = slot.find_candidates(accel);
+            self.candidates.push_if(slot.candidates != 0, at);
+        }
+        for i in 0..self.candidates.len() {
+            let at = self.candidates.get(i);
+            let slot = &mut self.slots[at];
+            if slot.test_candidates(accel) {
+                slot.limit = T::above_f32(T::Wide::splat(slot.query.limit())).get(0);
+                let top = slot.top as usize;
+                let kept = if slot.query.is_done() { 1 } else { self.stacks.keep_within(at, top, slot.limit) };
+                slot.top = kept as u32;
+            }
+        }
         let count = self.in_leaves.len();
         self.in_leaves.clear();
         for i in 0..count {
             let at = self.in_leaves.get(i);
-            let slot = &mut self.slots[at];
-            let mut top = slot.top as usize;
-            if slot.visit_leaf(accel) {
-                let limit = T::above_f32(T::Wide::splat(slot.query.limit())).get(0);
-                slot.limit = limit;
-                top = if slot.query.is_done() { 1 } else { self.stacks.keep_within(at, top, limit) };
-            }
+            let top = self.slots[at].top as usize;
             self.go_on(at, top - 1, accel);
         }
     }
@@ -221,6 +211,7 @@ impl<T: Tier, Q: Query<T::Real>> Slot<T, Q> {
             next: ChildRef::node(accel.world.node),
             top: 1,
             row,
+            candidates: 0,
             triangle: T::Triangle::prepare_one(&ray),
             ray,
             query,
@@ -240,46 +231,51 @@ impl<T: Tier, Q: Query<T::Real>> Slot<T, Q> {
         (enter, Lane::le(enter, leave).bits())
     }
 
-    /// Tests the leaf that is next; true if a hit was accepted.
+    /// Lanes of the leaf that is next that the ray may hit, as bits; all of them where only the test can tell.
     #[inline(always)]
-    fn visit_leaf(&mut self, accel: &Accel) -> bool {
+    fn find_candidates(&self, accel: &Accel) -> u32 {
         if self.next.kind() != PrimKind::Triangle as u8 {
-            return self.visit_other(accel);
+            return 0xff;
         }
-        let block = unchecked::triangles(accel, self.next);
-        let limit = self.query.limit();
-        let hit: LaneHit<T::Wide> =
-            T::Triangle::test_one(&self.ray, &self.triangle, block.corner_columns(), limit);
-        hit.mask.any() && self.accept(&hit, block.ids())
+        let corners = unchecked::triangles(accel, self.next).corner_columns();
+        T::Triangle::candidates::<T::Wide>(&self.ray, &self.triangle, corners)
     }
 
-    /// Puts the lanes of a block that meet to the query.
+    /// Tests the candidates; true if a hit was accepted.
+    #[inline(always)]
+    fn test_candidates(&mut self, accel: &Accel) -> bool {
+        if self.next.kind() != PrimKind::Triangle as u8 {
+            // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
+            let next = self.next;
+            return !next.is_empty() && with_block(accel, next, self);
+        }
+        let block = unchecked::triangles(accel, self.next);
+        let (mut left, mut accepted) = (self.candidates, false);
+        while left != 0 {
+            let i = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            let (corners, limit) = (block.corners_of::<T::Real>(i), self.query.limit());
+            let hit = T::Triangle::test_candidate(&self.ray, &self.triangle, corners, limit);
+            accepted |= self.query.accept(&self.ray, &hit, block.ids()[i]);
+        }
+        accepted
+    }
+}
+
+/// Leaves of anything but triangles: eight at once.
+impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
     #[inline(never)]
-    fn accept(&mut self, hit: &LaneHit<T::Wide>, ids: &[u32; WIDTH]) -> bool {
+    fn visit<B: Testable>(&mut self, block: &B) -> bool {
+        let rays = TestRays::new(RayLanes::splat(&self.ray));
+        let limit = T::Wide::splat(self.query.limit());
+        let hit: LaneHit<T::Wide> = block.test::<T, PrimitivesByRay>(0, &rays, limit);
         let (mut left, mut accepted) = (hit.mask.bits(), false);
         while left != 0 {
             let i = left.trailing_zeros() as usize;
             left &= left - 1;
             let one = LaneHit { mask: true, t: hit.t.get(i), u: hit.u.get(i), v: hit.v.get(i) };
-            accepted |= self.query.accept(&self.ray, &one, ids[i]);
+            accepted |= self.query.accept(&self.ray, &one, block.ids()[i]);
         }
         accepted
-    }
-
-    /// Leaves of anything but triangles. Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a
-    /// free slot.
-    #[inline(never)]
-    fn visit_other(&mut self, accel: &Accel) -> bool {
-        let next = self.next;
-        !next.is_empty() && with_block(accel, next, self)
-    }
-}
-
-impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
-    fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let rays = TestRays::new(RayLanes::splat(&self.ray));
-        let limit = T::Wide::splat(self.query.limit());
-        let hit: LaneHit<T::Wide> = block.test::<T, PrimitivesByRay>(0, &rays, limit);
-        hit.mask.any() && self.accept(&hit, block.ids())
     }
 }

@@ -27,13 +27,6 @@ impl<L: Lane> OwnBox<L> {
         Self { origin, reciprocal: safe_reciprocal(direction), reach }
     }
 
-    /// One ray in all lanes.
-    #[inline(always)]
-    pub fn splat(one: &OwnBox<L::Scalar>) -> Self {
-        let splat = |v: Vec3<L::Scalar>| Vec3::splat([v.x, v.y, v.z]);
-        Self { origin: splat(one.origin), reciprocal: splat(one.reciprocal), reach: L::splat(one.reach) }
-    }
-
     /// Where the rays are inside the boxes, first and last `t`; empty where first is beyond last.
     #[inline(always)]
     pub fn interval(&self, lo: Vec3<L>, hi: Vec3<L>) -> (L, L) {

@@ -40,12 +40,17 @@ impl TriangleTest for MollerTrumbore {
     fn prepare_one<R: Real>(_: &RayLanes<R>) {}
 
     #[inline(always)]
-    fn test_one<L: Lane>(
+    fn candidates<L: Lane>(
         ray: &RayLanes<L::Scalar>,
         _: &(),
         corners: &[[[f32; WIDTH]; 3]; 3],
-        limit: L::Scalar,
-    ) -> LaneHit<L> {
-        Self::test(&RayLanes::splat(ray), &(), three(|v| Vec3::load_f32(&corners[v])), L::splat(limit))
+    ) -> u32 {
+        let corners = three(|v| Vec3::<L>::load_f32(&corners[v]));
+        Self::test(&RayLanes::splat(ray), &(), corners, L::zero()).mask.bits()
+    }
+
+    #[inline(always)]
+    fn test_candidate<R: Real>(ray: &RayLanes<R>, _: &(), vertices: [Vec3<R>; 3], limit: R) -> LaneHit<R> {
+        Self::test(ray, &(), vertices, limit)
     }
 }

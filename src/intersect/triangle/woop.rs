@@ -96,23 +96,28 @@ impl TriangleTest for Woop {
 
     type OneRay<R: Real> = OneShear<R>;
 
+    #[inline(always)]
     fn prepare_one<R: Real>(ray: &RayLanes<R>) -> OneShear<R> {
         OneShear::new(ray)
     }
 
     #[inline(always)]
-    fn test_one<L: Lane>(
-        ray: &RayLanes<L::Scalar>,
+    fn candidates<L: Lane>(
+        _: &RayLanes<L::Scalar>,
         shear: &OneShear<L::Scalar>,
         corners: &[[[f32; WIDTH]; 3]; 3],
-        limit: L::Scalar,
-    ) -> LaneHit<L> {
-        let mask = inside_edges(three(|k| shear.across::<L>(&corners[k])));
-        if !mask.any() {
-            return LaneHit::none();
-        }
-        let corners = three(|k| Vec3::load_f32(&corners[k]));
-        within_own_box(mask, &RayLanes::splat(ray), &OwnBox::splat(&shear.own), corners, L::splat(limit))
+    ) -> u32 {
+        inside_edges(three(|k| shear.across::<L>(&corners[k]))).bits()
+    }
+
+    #[inline(always)]
+    fn test_candidate<R: Real>(
+        ray: &RayLanes<R>,
+        shear: &OneShear<R>,
+        vertices: [Vec3<R>; 3],
+        limit: R,
+    ) -> LaneHit<R> {
+        within_own_box(true, ray, &shear.own, vertices, limit)
     }
 }
 
@@ -128,24 +133,32 @@ pub struct OneShear<R> {
     own: OwnBox<R>,
 }
 
+/// Stored axes that stand for `x`, `y` and `z`, by the last of them.
+const AXES: [[u8; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+
 impl<R: Real> OneShear<R> {
+    /// The arithmetic of [`Shear::new`], without branches on the axis.
+    #[inline(always)]
     fn new(ray: &RayLanes<R>) -> Self {
-        let shear = Shear::new(ray);
-        let z = shear.shared.unwrap_or(2);
-        let axes = [(z + 1) % 3, (z + 2) % 3, z];
-        let origin = [ray.origin.x, ray.origin.y, ray.origin.z];
+        let size = ray.direction.abs();
+        let along_x = size.x.ge(size.y) & size.x.ge(size.z);
+        let along_y = !along_x & size.y.ge(size.z);
+        let z = if along_x { 0 } else { 2 - usize::from(along_y) };
+        let axes = AXES[z];
+        let of = |v: Vec3<R>| three(|k| [v.x, v.y, v.z][usize::from(axes[k])]);
+        let [x, y, z] = of(ray.direction);
         Self {
             axes,
-            origin: three(|k| origin[axes[k] as usize]),
-            shear: [shear.shear_x, shear.shear_y],
-            own: shear.own,
+            origin: of(ray.origin),
+            shear: [x / z, y / z],
+            own: OwnBox::new(ray.origin, ray.direction),
         }
     }
 
     /// The two coordinates across the ray of eight corners.
     #[inline(always)]
     fn across<L: Lane<Scalar = R>>(&self, corner: &[[f32; WIDTH]; 3]) -> (L, L) {
-        let [x, y, z] = three(|k| L::load_f32(&corner[self.axes[k] as usize]) - L::splat(self.origin[k]));
+        let [x, y, z] = three(|k| L::load_f32(&corner[usize::from(self.axes[k])]) - L::splat(self.origin[k]));
         (x - L::splat(self.shear[0]) * z, y - L::splat(self.shear[1]) * z)
     }
 }

@@ -10,6 +10,7 @@ use super::octray::Octray;
 use super::rays::RaySet;
 use super::subject::{Subject, Target};
 use crate::accel::query::Closest;
+use crate::accel::stream::Apex;
 use crate::accel::{Hint, Traversal};
 use crate::intersect::{PrimId, RayLanes, Watertight};
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
@@ -55,7 +56,8 @@ fn pixels([width, height]: [u32; 2]) -> Vec<[u32; 2]> {
 }
 
 fn primary(subject: &Subject, size @ [width, height]: [u32; 2]) -> RaySet {
-    let mut rays = RaySet::default();
+    let apex = subject.camera.common_origin().map(Apex::Origin);
+    let mut rays = RaySet { apex, ..RaySet::default() };
     for (i, [x, y]) in pixels(size).into_iter().enumerate() {
         let [jx, jy, ..] = numbers(Class::Primary, i);
         let film_x = 2.0 * (f64::from(x) + jx) / f64::from(width) - 1.0;
@@ -98,7 +100,11 @@ struct Seen {
 }
 
 fn secondary(subject: &Subject, class: Class, size: [u32; 2]) -> RaySet {
-    let mut rays = RaySet::default();
+    let apex = match (class, subject.light) {
+        (Class::Shadow, Target::Point(place)) => Some(Apex::Target(place.map(|x| x as f32))),
+        _ => None,
+    };
+    let mut rays = RaySet { apex, ..RaySet::default() };
     let mut traversal = Traversal::new(&subject.accel);
     let camera_rays = primary(subject, size);
     for first in (0..camera_rays.len()).step_by(WIDTH) {

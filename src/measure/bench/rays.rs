@@ -2,6 +2,7 @@
 
 use std::ops::Range;
 
+use crate::accel::stream::Apex;
 use crate::math::WIDTH;
 
 /// What `prim` holds where a ray hit nothing.
@@ -20,6 +21,8 @@ pub struct RaySet {
     pub t_min: Vec<f32>,
     /// Hits at or beyond it do not count.
     pub t_max: Vec<f32>,
+    /// What all rays have in common, as whoever sends them knows.
+    pub apex: Option<Apex>,
 }
 
 impl RaySet {
@@ -47,6 +50,7 @@ impl RaySet {
             direction: self.direction.each_ref().map(|c| &c[..]),
             t_min: &self.t_min,
             t_max: &self.t_max,
+            apex: self.apex,
         }
     }
 }
@@ -62,6 +66,8 @@ pub struct RayColumns<'a> {
     pub t_min: &'a [f32],
     /// As in [`RaySet`].
     pub t_max: &'a [f32],
+    /// As in [`RaySet`].
+    pub apex: Option<Apex>,
 }
 
 impl<'a> RayColumns<'a> {
@@ -80,6 +86,7 @@ impl<'a> RayColumns<'a> {
             direction: self.direction.map(|c| &c[range.clone()]),
             t_min: &self.t_min[range.clone()],
             t_max: &self.t_max[range],
+            apex: self.apex,
         }
     }
     /// Origin and direction of a ray.
