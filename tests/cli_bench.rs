@@ -154,7 +154,7 @@ mod peers {
         };
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("report.json");
-        for scene in ["spheres", "terrain:2000"] {
+        for scene in ["spheres", "terrain:2000", "seed"] {
             bench(&[scene, "--peers", "--json", path(&file)]).env("OCTRAY_EMBREE", &embree).assert().code(0);
             let report: serde_json::Value =
                 serde_json::from_str(&std::fs::read_to_string(&file).unwrap()).unwrap();
