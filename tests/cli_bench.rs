@@ -112,6 +112,7 @@ fn wrong_use_and_bad_scenes() {
         (&["--view", "above"], 2, "inside"),
         (&["--runs", "0"], 2, "--runs"),
         (&["--embree", "/nowhere"], 2, "--peers"),
+        (&["--peers=optix"], 2, "embree"),
         (&["no-such-scene"], 2, "no built-in scene"),
         (&["nowhere.obj"], 3, "nowhere.obj"),
         (&["seed", "--json", "/nowhere/at/all.json"], 1, "/nowhere/at/all.json"),
@@ -135,6 +136,8 @@ mod peers {
     fn crates_stand_beside_octray_without_embree() {
         let table = stdout_of(&["terrain:2000", "--peers"]);
         assert!(table.contains("obvhs") && table.contains("bvh") && table.contains("octray is"), "{table}");
+        let table = stdout_of(&["terrain:2000", "--classes", "primary", "--peers=obvhs"]);
+        assert!(table.contains("obvhs") && !table.contains("  bvh  "), "{table}");
         let error = stderr_of(&["spheres", "--classes", "primary", "--peers"], 0);
         assert!(error.contains("without Embree") && error.contains("without obvhs"), "{error}");
     }
@@ -154,7 +157,7 @@ mod peers {
         };
         let folder = tempfile::tempdir().unwrap();
         let file = folder.path().join("report.json");
-        for scene in ["spheres", "terrain:2000"] {
+        for scene in ["spheres", "terrain:2000", "seed"] {
             bench(&[scene, "--peers", "--json", path(&file)]).env("OCTRAY_EMBREE", &embree).assert().code(0);
             let report: serde_json::Value =
                 serde_json::from_str(&std::fs::read_to_string(&file).unwrap()).unwrap();

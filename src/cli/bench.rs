@@ -21,6 +21,9 @@ use crate::output;
 /// What is measured when no scene is named.
 const SCENES: [&str; 3] = ["terrain:200000", "instances", "spheres"];
 
+/// Other ray tracers.
+const PEERS: [&str; 3] = ["embree", "obvhs", "bvh"];
+
 /// Arguments of `octray bench`.
 #[derive(Debug, clap::Args)]
 pub struct BenchArgs {
@@ -55,9 +58,10 @@ pub struct BenchArgs {
     /// Compare with a file that --json wrote; exit 4 if a class of rays became slower by more than the noise
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub baseline: Option<PathBuf>,
-    /// Time other ray tracers too, on the same rays
-    #[arg(long)]
-    pub peers: bool,
+    /// Time other ray tracers too, on the same rays: all that there are, or those after an equals sign
+    #[arg(long, value_name = "NAME", num_args = 0.., require_equals = true, value_delimiter = ',',
+          default_missing_values = PEERS, value_parser = PossibleValuesParser::new(PEERS))]
+    pub peers: Vec<String>,
     /// Embree 4: its library, or a folder that holds it [default: the variable OCTRAY_EMBREE]
     #[arg(long, value_name = "PATH", requires = "peers", value_hint = ValueHint::AnyPath)]
     pub embree: Option<PathBuf>,
@@ -194,16 +198,17 @@ struct Peers(Option<crate::measure::peers::Peers>);
 #[cfg(feature = "peers")]
 impl Peers {
     fn open(args: &BenchArgs) -> Result<Self, CliError> {
-        if !args.peers {
+        if args.peers.is_empty() {
             return Ok(Self(None));
         }
         let path = args.embree.clone().or_else(|| std::env::var_os("OCTRAY_EMBREE").map(PathBuf::from));
-        if path.is_none() {
+        let is_wanted = args.peers.iter().any(|name| name == PEERS[0]);
+        if is_wanted && path.is_none() {
             say(
                 "without Embree: name its library or its folder by --embree or by the variable OCTRAY_EMBREE",
             );
         }
-        let peers = crate::measure::peers::Peers::open(path.as_deref());
+        let peers = crate::measure::peers::Peers::open(path.as_deref().filter(|_| is_wanted), &args.peers);
         peers.map(|peers| Self(Some(peers))).map_err(|error| CliError::of(Exit::Failed, error))
     }
     fn scenes(&self, subject: &Subject, tier: TierName, threads: usize) -> Vec<PeerScene> {
@@ -219,7 +224,7 @@ struct Peers;
 impl Peers {
     fn open(args: &BenchArgs) -> Result<Self, CliError> {
         let missing = "this octray was built without other ray tracers: build it with --features peers";
-        if args.peers { Err(CliError::new(Exit::Usage, missing)) } else { Ok(Self) }
+        if !args.peers.is_empty() { Err(CliError::new(Exit::Usage, missing)) } else { Ok(Self) }
     }
     fn scenes(&self, _: &Subject, _: TierName, _: usize) -> Vec<PeerScene> {
         Vec::new()

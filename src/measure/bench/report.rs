@@ -107,6 +107,21 @@ pub struct EngineReport {
     pub counters: Option<CounterReading>,
 }
 
+impl BuildReport {
+    /// A build of so many primitives.
+    pub fn new(engine: &str, mode: &str, prims: usize, seconds: f64, bytes: Option<f64>) -> Self {
+        let prims = prims as f64;
+        Self {
+            engine: engine.into(),
+            mode: mode.into(),
+            seconds,
+            // A clock that has not moved says that there was little to do, not that it was infinitely fast.
+            mprims_s: prims / seconds.max(1e-9) / 1e6,
+            bytes_a_prim: bytes.map(|bytes| bytes / prims),
+        }
+    }
+}
+
 impl ClassReport {
     /// octray's own row.
     pub fn octray(&self) -> Option<&EngineReport> {

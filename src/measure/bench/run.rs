@@ -75,14 +75,8 @@ pub fn bench_scene(
 }
 
 fn own_build(subject: &Subject) -> BuildReport {
-    let (count, seconds) = (subject.primitive_count() as f64, subject.build_time.as_secs_f64());
-    BuildReport {
-        engine: "octray".into(),
-        mode: "default".into(),
-        seconds,
-        mprims_s: count / seconds / 1e6,
-        bytes_a_prim: Some(subject.tree_bytes() as f64 / count),
-    }
+    let (seconds, bytes) = (subject.build_time.as_secs_f64(), subject.tree_bytes() as f64);
+    BuildReport::new("octray", "default", subject.primitive_count(), seconds, Some(bytes))
 }
 
 /// The engines of a scene, in the order of the report.

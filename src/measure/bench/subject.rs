@@ -46,7 +46,7 @@ impl FromStr for View {
 /// Where shadow rays go.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Target {
-    /// To a point, which lies at `t = 1`.
+    /// To a point, where they end.
     Point([f64; 3]),
     /// Along a direction, without end.
     Direction([f64; 3]),

@@ -34,13 +34,7 @@ impl<F: Faces> FacesEngine<F> {
         let start = Instant::now();
         let tree = F::build(&corners);
         let seconds = start.elapsed().as_secs_f64();
-        let build = BuildReport {
-            engine: F::NAME.into(),
-            mode: F::MODE.into(),
-            seconds,
-            mprims_s: corners.len() as f64 / seconds / 1e6,
-            bytes_a_prim: None,
-        };
+        let build = BuildReport::new(F::NAME, F::MODE, corners.len(), seconds, None);
         Ok((Self(tree), build))
     }
 }

@@ -20,22 +20,24 @@ pub struct PeerError(String);
 pub struct Peers {
     #[cfg(unix)]
     embree: Option<embree::Embree>,
+    names: Vec<String>,
 }
 
 impl Peers {
-    /// Loads Embree from its library, or from a folder that holds it; without a path there is no Embree.
+    /// Those among `names`. Embree is loaded from its library, or from a folder that holds it; without a path there is none.
     ///
     /// **Errors:** a path that leads to no Embree 4.
     #[cfg(unix)]
-    pub fn open(embree: Option<&Path>) -> Result<Self, PeerError> {
-        Ok(Self { embree: embree.map(embree::Embree::load).transpose().map_err(PeerError)? })
+    pub fn open(embree: Option<&Path>, names: &[String]) -> Result<Self, PeerError> {
+        let embree = embree.map(embree::Embree::load).transpose().map_err(PeerError)?;
+        Ok(Self { embree, names: names.to_vec() })
     }
 
     /// The crates alone: nothing is loaded at run time on this system.
     #[cfg(not(unix))]
-    pub fn open(embree: Option<&Path>) -> Result<Self, PeerError> {
+    pub fn open(embree: Option<&Path>, names: &[String]) -> Result<Self, PeerError> {
         match embree {
-            None => Ok(Self {}),
+            None => Ok(Self { names: names.to_vec() }),
             Some(_) => Err(PeerError("only on Unix".into())),
         }
     }
@@ -56,10 +58,11 @@ impl Peers {
                 Err(reason) => say(&format!("{subject}: without Embree: {reason}")),
             }
         }
-        let crates =
-            [("obvhs", crate_scene::<obvhs::Obvhs>(subject)), ("bvh", crate_scene::<bvh::BvhCrate>(subject))];
-        for (name, built) in crates {
-            match built {
+        type Crate = fn(&Subject) -> Result<PeerScene, String>;
+        let crates: [(&str, Crate); 2] =
+            [("obvhs", crate_scene::<obvhs::Obvhs>), ("bvh", crate_scene::<bvh::BvhCrate>)];
+        for (name, build) in crates.into_iter().filter(|(name, _)| self.names.iter().any(|n| n == name)) {
+            match build(subject) {
                 Ok(scene) => scenes.push(scene),
                 Err(reason) => say(&format!("{subject}: without {name}: {reason}")),
             }

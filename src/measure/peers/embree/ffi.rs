@@ -7,12 +7,11 @@
 
 use std::ffi::{CString, c_char, c_int, c_uint, c_void};
 use std::path::Path;
-use std::sync::Arc;
 use std::sync::atomic::{AtomicIsize, Ordering};
 
 use libloading::os::unix::{Library, RTLD_GLOBAL, RTLD_NOW};
 
-use super::layout::{Handle, QueryArguments, Ray, Ray8, RayHit, RayHit8, Valid8};
+use super::layout::{Handle, INSTANCE, QueryArguments, ROWS_3X4, Ray, Ray8, RayHit, RayHit8, Valid8};
 
 /// Number of the device property that holds the major version.
 const VERSION_MAJOR: c_int = 1;
@@ -58,6 +57,8 @@ functions! {
     new_geometry = b"rtcNewGeometry\0": fn(Handle, c_int) -> Handle;
     set_geometry_quality = b"rtcSetGeometryBuildQuality\0": fn(Handle, c_int);
     new_buffer = b"rtcSetNewGeometryBuffer\0": fn(Handle, c_int, c_uint, c_int, usize, usize) -> *mut c_void;
+    set_instanced_scene = b"rtcSetGeometryInstancedScene\0": fn(Handle, Handle);
+    set_transform = b"rtcSetGeometryTransform\0": fn(Handle, c_uint, c_int, *const c_void);
     commit_geometry = b"rtcCommitGeometry\0": fn(Handle);
     attach_geometry = b"rtcAttachGeometry\0": fn(Handle, Handle) -> c_uint;
     release_geometry = b"rtcReleaseGeometry\0": fn(Handle);
@@ -68,8 +69,8 @@ functions! {
 }
 
 /// A loaded Embree.
-#[derive(Clone)]
-pub(super) struct Embree(Arc<Functions>);
+#[derive(Clone, Copy)]
+pub(super) struct Embree(&'static Functions);
 
 impl Embree {
     /// Loads libraries, each visible to the next; Embree comes last. **Errors:** in words.
@@ -83,7 +84,7 @@ impl Embree {
         // Never unloaded: threads of TBB may run its code until the process ends.
         let embree = loaded?.leak().last().ok_or("no library")?;
         let functions = Functions::of(embree).map_err(|error| format!("not Embree 4: {error}"))?;
-        let embree = Self(Arc::new(functions));
+        let embree = Self(Box::leak(Box::new(functions)));
         let device = embree.device(1)?;
         // SAFETY: the device is alive.
         match unsafe { (embree.0.device_property)(device.handle, VERSION_MAJOR) } {
@@ -105,7 +106,7 @@ impl Embree {
         let counter = std::ptr::from_ref(bytes).cast_mut().cast();
         // SAFETY: the device is alive; the counter is shared and only ever changed atomically.
         unsafe { (self.0.set_memory_monitor)(handle, count_bytes, counter) };
-        Ok(Device { embree: self.clone(), handle, bytes })
+        Ok(Device { embree: *self, handle, bytes })
     }
 }
 
@@ -126,7 +127,7 @@ impl Drop for Device {
 impl Device {
     /// An empty scene.
     pub(super) fn scene(&self, flags: c_int, quality: c_int) -> SceneBuilder<'_> {
-        let f = &self.embree.0;
+        let f = self.embree.0;
         // SAFETY: the device is alive, flags and quality are numbers of the interface.
         let handle = unsafe {
             let handle = (f.new_scene)(self.handle);
@@ -134,7 +135,7 @@ impl Device {
             (f.set_scene_quality)(handle, quality);
             handle
         };
-        SceneBuilder { device: self, quality, scene: Scene { embree: self.embree.clone(), handle } }
+        SceneBuilder { device: self, quality, scene: Scene { embree: self.embree, handle } }
     }
 }
 
@@ -161,29 +162,54 @@ impl Word for u32 {}
 impl Word for f32 {}
 
 impl SceneBuilder<'_> {
-    /// Adds a geometry with vertices and, where it has any, indices; gives its number.
+    /// Adds a geometry with vertices and, where it has any, indices. Geometries have numbers in the order of adding.
     pub(super) fn add<const V: usize, const I: usize>(
         &mut self,
         kind: c_int,
         vertices: &Buffer<'_, f32, V>,
         indices: Option<&Buffer<'_, u32, I>>,
-    ) -> Result<u32, String> {
-        let f = &self.scene.embree.0;
-        // SAFETY: the device is alive.
-        let geometry = unsafe { (f.new_geometry)(self.device.handle, kind) };
-        if geometry.is_null() {
-            return Err(format!("this Embree has no geometry of kind {kind}"));
-        }
+    ) -> Result<(), String> {
+        let geometry = self.geometry(kind)?;
         self.fill(geometry, vertices)?;
         indices.map_or(Ok(()), |indices| self.fill(geometry, indices))?;
-        // SAFETY: geometry and scene are alive; the scene keeps a reference to the geometry.
-        Ok(unsafe {
+        self.attach(geometry);
+        Ok(())
+    }
+
+    /// Adds a committed scene of the same device, seen through the rows of an affine map.
+    pub(super) fn add_instance(&mut self, of: &Scene, to_world: &[[f32; 4]; 3]) -> Result<(), String> {
+        let geometry = self.geometry(INSTANCE)?;
+        let f = self.scene.embree.0;
+        // SAFETY: geometry and scene are alive, and the geometry keeps a reference to the scene; the twelve numbers are
+        // read during the call.
+        unsafe {
+            (f.set_instanced_scene)(geometry, of.handle);
+            (f.set_transform)(geometry, 0, ROWS_3X4, to_world.as_ptr().cast());
+        }
+        self.attach(geometry);
+        Ok(())
+    }
+
+    fn geometry(&self, kind: c_int) -> Result<Handle, String> {
+        // SAFETY: the device is alive.
+        let geometry = unsafe { (self.scene.embree.0.new_geometry)(self.device.handle, kind) };
+        if geometry.is_null() {
+            Err(format!("this Embree has no geometry of kind {kind}"))
+        } else {
+            Ok(geometry)
+        }
+    }
+
+    /// Hands a filled geometry over to the scene.
+    fn attach(&mut self, geometry: Handle) {
+        let f = self.scene.embree.0;
+        // SAFETY: geometry and scene are alive; the scene keeps a reference to the geometry, ours ends here.
+        unsafe {
             (f.set_geometry_quality)(geometry, self.quality);
             (f.commit_geometry)(geometry);
-            let number = (f.attach_geometry)(self.scene.handle, geometry);
+            (f.attach_geometry)(self.scene.handle, geometry);
             (f.release_geometry)(geometry);
-            number
-        })
+        }
     }
 
     fn fill<T: Word, const N: usize>(

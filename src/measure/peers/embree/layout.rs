@@ -17,6 +17,8 @@ pub(super) const TRIANGLE: c_int = 0;
 /// Line segments with a radius at each end, closed by disks.
 pub(super) const CONE_LINEAR_CURVE: c_int = 15;
 pub(super) const SPHERE_POINT: c_int = 50;
+/// A scene seen through a transform.
+pub(super) const INSTANCE: c_int = 121;
 
 pub(super) const INDEX_BUFFER: c_int = 0;
 pub(super) const VERTEX_BUFFER: c_int = 1;
@@ -25,6 +27,8 @@ pub(super) const UINT: c_int = 0x5001;
 pub(super) const UINT3: c_int = 0x5003;
 pub(super) const FLOAT3: c_int = 0x9003;
 pub(super) const FLOAT4: c_int = 0x9004;
+/// Three rows of four numbers.
+pub(super) const ROWS_3X4: c_int = 0x9134;
 
 /// One ray.
 #[repr(C, align(16))]

@@ -11,10 +11,11 @@ use std::sync::Arc;
 
 use ffi::Scene;
 use layout::{COHERENT, NO_GEOMETRY, QueryArguments, Ray, Ray8, RayHit, RayHit8, Valid8};
+use scene::Numbers;
 
-use crate::intersect::{PrimId, PrimKind, TierName};
+use crate::intersect::TierName;
 use crate::math::WIDTH;
-use crate::measure::bench::{Engine, HitColumns, NO_HIT, PeerScene, RayColumns, Subject};
+use crate::measure::bench::{Engine, HitColumns, PeerScene, RayColumns, Subject};
 
 pub(super) const NAME: &str = "embree";
 
@@ -42,11 +43,15 @@ impl Embree {
             .into_iter()
             .map(|(name, quality)| {
                 let quality = scene::Quality { name, quality, flags };
-                let (scene, kinds, build) = scene::build(&self.0, subject, &quality, threads)?;
+                let (scene, numbers, build) = scene::build(&self.0, subject, &quality, threads)?;
                 let scene = Arc::new(scene);
                 let engine = |way| {
-                    Box::new(EmbreeEngine { scene: scene.clone(), quality: name, way, kinds: kinds.clone() })
-                        as Box<dyn Engine>
+                    Box::new(EmbreeEngine {
+                        scene: scene.clone(),
+                        quality: name,
+                        way,
+                        numbers: numbers.clone(),
+                    }) as Box<dyn Engine>
                 };
                 Ok(PeerScene { build, engines: Way::ALL.map(engine).into() })
             })
@@ -96,8 +101,7 @@ struct EmbreeEngine {
     scene: Arc<Scene>,
     quality: &'static str,
     way: Way,
-    /// The kind of primitive of each geometry.
-    kinds: Vec<PrimKind>,
+    numbers: Numbers,
 }
 
 impl Engine for EmbreeEngine {
@@ -131,7 +135,7 @@ impl EmbreeEngine {
             asked.hit.instance = NO_GEOMETRY;
             self.scene.intersect1(&mut asked, &mut arguments);
             hits.t[i] = asked.ray.t_far;
-            hits.prim[i] = self.id(asked.hit.geometry, asked.hit.prim);
+            hits.prim[i] = self.numbers.id(asked.hit.instance, asked.hit.geometry, asked.hit.prim);
         }
     }
 
@@ -143,7 +147,8 @@ impl EmbreeEngine {
             asked.hit.geometry = [NO_GEOMETRY; WIDTH];
             asked.hit.instance = [NO_GEOMETRY; WIDTH];
             self.scene.intersect8(&valid(rays.len() - first), &mut asked, &mut arguments);
-            let ids = std::array::from_fn(|i| self.id(asked.hit.geometry[i], asked.hit.prim[i]));
+            let hit = &asked.hit;
+            let ids = std::array::from_fn(|i| self.numbers.id(hit.instance[i], hit.geometry[i], hit.prim[i]));
             hits.put_eight(first, asked.ray.t_far, ids);
         }
     }
@@ -165,14 +170,6 @@ impl EmbreeEngine {
             for (occluded, t_far) in occluded.iter_mut().zip(asked.t_far) {
                 *occluded = t_far < 0.0;
             }
-        }
-    }
-
-    #[inline(always)]
-    fn id(&self, geometry: u32, prim: u32) -> u32 {
-        match self.kinds.get(geometry as usize) {
-            Some(&kind) => PrimId::new(kind, prim as usize).0,
-            None => NO_HIT,
         }
     }
 }
