@@ -3,7 +3,7 @@
 //! Plainly: each packet of eight rays is tested against every primitive that the pyramid of all rays meets. Departures:
 //! - in a leaf the pyramid is tested against eight primitives at once, then a primitive against the pyramids of eight
 //!   packets at once; only the pairs that are left run the primitive test;
-//! - a bundle that meets many leaves is given up: its rays are too far apart for the size of the primitives, and the
+//! - a bundle that meets many primitives is given up: its rays are too far apart for the size of the primitives, and the
 //!   packets go on from what they have found.
 
 use super::frustum::{Boxes, Frustum};
@@ -17,8 +17,8 @@ use crate::accel::{packet, single};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::WIDTH;
 
-/// Leaves after which a bundle is given up.
-const LEAF_BUDGET: usize = 48;
+/// Primitives met by the pyramid after which a bundle is given up: two a ray.
+const BUDGET: usize = 2 * WIDTH * WIDTH;
 
 /// Packets of a bundle with what they ask.
 pub(super) struct Bundle<'a, T: Tier, Q> {
@@ -27,6 +27,8 @@ pub(super) struct Bundle<'a, T: Tier, Q> {
     /// Prepared when first tested: many packets meet nothing.
     pub(super) prepared: &'a mut [Option<TestRays<T>>; WIDTH],
     pub(super) queries: &'a mut [Q],
+    /// Primitives that the pyramid met.
+    pub(super) met: usize,
 }
 
 /// Stacks of a worker, empty between calls.
@@ -39,7 +41,6 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     /// Puts everything below `root` to the queries that their rays may hit; false if given up.
     pub(super) fn descend(&mut self, accel: &Accel, root: u32, stacks: Stacks) -> bool {
         let stack = stacks.bundle;
-        let mut leaves = 0;
         stack.push(single::Entry::new(f32::NEG_INFINITY, ChildRef::node(root)));
         while let Some(entry) = stack.pop() {
             let child = entry.child;
@@ -51,12 +52,11 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
             } else if child.kind() == Accel::INSTANCE {
                 self.visit_instances(accel, child, stacks.packet);
             } else {
-                leaves += 1;
-                if leaves > LEAF_BUDGET {
+                with_block(accel, child, self);
+                if self.met > BUDGET {
                     stack.clear();
                     return false;
                 }
-                with_block(accel, child, self);
             }
         }
         true
@@ -117,6 +117,7 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
         if let Some(edges) = &edges {
             left &= self.frustum.triangles(edges);
         }
+        self.met += left.count_ones() as usize;
         let mut any = false;
         while left != 0 {
             let i = left.trailing_zeros() as usize;

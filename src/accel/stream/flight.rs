@@ -23,7 +23,7 @@ use crate::accel::traversal::ask_planes;
 use crate::accel::unchecked::{self, Slots, Stacks};
 use crate::intersect::aabb::CullRay;
 use crate::intersect::{LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, WIDTH, three};
+use crate::math::{Lane, Mask, Vec3, three};
 
 /// Rays under way.
 const SLOTS: usize = 48;
@@ -155,7 +155,8 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             if slot.test_candidates(accel) {
                 slot.limit = T::above_f32(T::Wide::splat(slot.query.limit())).get(0);
                 let top = slot.top as usize;
-                let kept = if slot.query.is_done() { 1 } else { self.stacks.keep_within(at, top, slot.limit) };
+                let kept =
+                    if slot.query.is_done() { 1 } else { self.stacks.keep_within(at, top, slot.limit) };
                 slot.top = kept as u32;
             }
         }

@@ -16,25 +16,28 @@ use crate::accel::node::Node8;
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, fused_cross, three};
 
-/// What rays of a stream have in common. It changes time, never results.
+/// What rays of a stream have in common. It changes time, never results: rays that it is not true of go another way.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Apex {
     /// All start here, up to rounding.
     Origin([f32; 3]),
-    /// All pass through here at `t = 1`, up to rounding.
+    /// All pass through here, up to rounding, at or beyond their `t_max`.
     Target([f32; 3]),
 }
 
 /// Largest slope: beyond it rays go too far apart, or along another axis.
 const MAX_SLOPE: f32 = 2.0;
 
+/// Roundoffs of the largest coordinate by which rays may pass by their apex.
+const APEX_ROUNDOFFS: f64 = 8.0;
+
 /// Roundoffs of the largest coordinate by which the sides are moved outwards: the 36 by which boxes of a tree are padded,
-/// 4 for an apex that rays pass by, 8 for the roundings of slopes and planes, on both axes of a slope up to 2; and a
-/// third more.
+/// 8 for an apex that rays pass by, 8 for the roundings of slopes and planes, on both axes of a slope up to 2; and a
+/// quarter more.
 const SIDE_ROUNDOFFS: f64 = 192.0;
 
 /// The same for edge functions, of the product of the largest coordinate and the distance at which rays pass the
-/// corners: a coordinate across is off by 6 roundoffs of the largest, by 10 for an apex that rays pass by, in the triangle
+/// corners: a coordinate across is off by 6 roundoffs of the largest, by 14 for an apex that rays pass by, in the triangle
 /// test as here; an edge function is the sum of two products of two such; and twice that.
 const EDGE_ROUNDOFFS: f64 = 128.0;
 
@@ -128,31 +131,38 @@ impl Frustum {
             Apex::Origin(point) => (point, false),
             Apex::Target(point) => (point, true),
         };
-        let away = |rays: &RayLanes<T::Wide>| {
-            let d = narrow::<T>(rays.direction);
-            if is_target { -d } else { d }
-        };
         let first = packets.iter().find(|rays| asked::<T>(rays) != 0)?;
         let lead = asked::<T>(first).trailing_zeros() as usize;
-        let view = View::along(away(first).get(lead), point);
+        let view = View::along(from_apex::<T>(first, point, is_target).get(lead), point);
         let mut a = [f32x8::ZERO; WIDTH];
         let (mut b, mut along) = (a, [f32x8::ONE; WIDTH]);
-        let mut far = Vec3::zero();
+        let (mut astray, mut far) = (f32x8::ZERO, Vec3::zero());
         for (j, rays) in packets.iter().enumerate() {
             let asked = asked::<T>(rays);
-            if asked & !answerable::<T>(rays, is_target) != 0 {
+            if asked & !rays.t_min.ge(T::Wide::zero()).bits() != 0 {
                 return None;
             }
-            (a[j], b[j], along[j]) = slopes(view.direction(away(rays)), asked)?;
-            if is_target {
-                far = far.max(narrow::<T>(rays.origin).abs());
-            }
+            let seen = view.direction(from_apex::<T>(rays, point, is_target));
+            (a[j], b[j], along[j]) = slopes(seen, asked)?;
+            let origin = narrow::<T>(rays.origin);
+            let by = match is_target {
+                true => passes_by::<T>(rays, &view, seen),
+                false => (origin - Vec3::splat(point)).abs().max_component(),
+            };
+            let by = Lane::select(by.ge(f32x8::ZERO), by, f32x8::splat(f32::INFINITY));
+            let asked = Mask::from_bits(asked);
+            astray = Lane::select(asked, Lane::max(astray, by), astray);
+            far = Vec3::select(asked, far.max(origin.abs()), far);
         }
         for j in packets.len()..WIDTH {
             (a[j], b[j]) = (a[0], b[0]);
         }
         let size = point.iter().fold(scale.max(greatest(far.max_component())), |size, x| size.max(x.abs()));
+        let close = greatest(astray) <= size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32;
         let packets = Slopes { a: range(a), b: range(b) };
+        if !close {
+            return None;
+        }
         Self { view, is_target, along, ..Self::with(packets, 2.0 * size) }.oriented()
     }
 
@@ -326,11 +336,23 @@ fn asked<T: Tier>(rays: &RayLanes<T::Wide>) -> u32 {
     T::nearest_f32(rays.t_max).gt(f32x8::splat(f32::NEG_INFINITY)).bits()
 }
 
-/// Lanes that ask for nothing behind the apex, nor beyond it.
+/// From the apex along the rays: their directions, or where they come from.
 #[inline(always)]
-fn answerable<T: Tier>(rays: &RayLanes<T::Wide>, is_target: bool) -> u32 {
-    let ahead = rays.t_min.ge(T::Wide::zero()).bits();
-    if is_target { ahead & rays.t_max.le(T::Wide::one()).bits() } else { ahead }
+fn from_apex<T: Tier>(rays: &RayLanes<T::Wide>, apex: [f32; 3], is_target: bool) -> Vec3<f32x8> {
+    match is_target {
+        true => narrow::<T>(rays.origin) - Vec3::splat(apex),
+        false => narrow::<T>(rays.direction),
+    }
+}
+
+/// How far rays from `seen` pass by the target; infinite where they are asked for what is beyond it.
+#[inline(always)]
+fn passes_by<T: Tier>(rays: &RayLanes<T::Wide>, view: &View, seen: Vec3<f32x8>) -> f32x8 {
+    let d = view.direction(narrow::<T>(rays.direction));
+    let t = -seen.z / d.z;
+    let by = Lane::max((seen.x + t * d.x).abs(), (seen.y + t * d.y).abs());
+    let ends = T::nearest_f32(rays.t_max).le(t * f32x8::splat(1.0 + 4.0 * f32::EPSILON));
+    Lane::select(ends, by, f32x8::splat(f32::INFINITY))
 }
 
 /// Slopes of directions, and their lengths along `z`. Lanes that are not asked take the slopes of one that is; without

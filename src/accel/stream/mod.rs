@@ -24,6 +24,9 @@ use frustum::Frustum;
 pub use columns::{Bound, HitColumns, RayColumns};
 pub use frustum::Apex;
 
+/// Bundles that are not tried after one that did not pay: their neighbours would not either.
+const REST: usize = 15;
+
 /// Packets in a bundle.
 const BUNDLE: usize = WIDTH;
 
@@ -176,6 +179,8 @@ struct Bundles<'a, T: Tier> {
     traversal: Traversal<'a>,
     rays: Vec<RayLanes<T::Wide>>,
     prepared: Box<[Option<TestRays<T>>; BUNDLE]>,
+    /// Bundles to come that are not tried.
+    rest: usize,
 }
 
 impl<'a, T: Tier> Bundles<'a, T> {
@@ -185,6 +190,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             traversal: Traversal::new(accel),
             rays: Vec::with_capacity(BUNDLE),
             prepared: Box::new([const { None }; BUNDLE]),
+            rest: 0,
         }
     }
 
@@ -230,6 +236,10 @@ impl<'a, T: Tier> Bundles<'a, T> {
     /// False if the packets do not make a bundle, or not a good one.
     fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> bool {
         let world = self.accel.world;
+        if self.rest > 0 {
+            self.rest -= 1;
+            return false;
+        }
         let Some(mut frustum) = Frustum::around::<T>(&self.rays, apex, world.scale) else { return false };
         for (j, query) in queries.iter().enumerate() {
             frustum.look(j, T::above_f32(query.limit()));
@@ -238,7 +248,10 @@ impl<'a, T: Tier> Bundles<'a, T> {
         self.prepared.fill(None);
         let stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
-        Bundle { frustum, rays: &self.rays, prepared: &mut self.prepared, queries }
-            .descend(self.accel, world.node, stacks)
+        let rays = &self.rays;
+        let mut bundle = Bundle { frustum, rays, prepared: &mut self.prepared, queries, met: 0 };
+        let done = bundle.descend(self.accel, world.node, stacks);
+        self.rest = if done { 0 } else { REST };
+        done
     }
 }
