@@ -85,52 +85,68 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         self.frustum.update_reach();
     }
 
-    /// Tests primitive `i` of a block against those of the packets that are left.
+    /// Tests the primitives of a block that the pyramid meets, each against the packets that may meet it.
     #[inline(always)]
-    fn visit_packets<B: Testable>(&mut self, block: &B, i: usize, packets: u32) -> bool {
-        let mut any = false;
+    fn visit_primitives<B: Testable>(
+        &mut self,
+        block: &B,
+        met: u32,
+        packets: impl Fn(&Frustum, usize) -> u32,
+    ) -> bool {
+        let mut left = met & ((1 << block.count()) - 1);
+        self.met += left.count_ones() as usize;
+        let mut accepted = 0;
+        while left != 0 {
+            let i = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            accepted |= self.visit_packets(block, i, packets(&self.frustum, i));
+        }
+        if accepted != 0 {
+            self.look_again(accepted);
+        }
+        accepted != 0
+    }
+
+    /// Draws in what packets that found something look for.
+    #[inline(always)]
+    fn look_again(&mut self, packets: u32) {
+        let mut left = packets;
+        while left != 0 {
+            let j = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            self.frustum.look(j, T::above_f32(self.queries[j].limit()));
+        }
+        self.frustum.update_reach();
+    }
+
+    /// Tests primitive `i` of a block against packets; gives those that accepted a hit.
+    #[inline(always)]
+    fn visit_packets<B: Testable>(&mut self, block: &B, i: usize, packets: u32) -> u32 {
+        let mut accepted = 0;
         let mut left = packets & ((1 << self.rays.len()) - 1);
         while left != 0 {
-            let j = left.trailing_zeros() as usize;
+            let j = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            let query = &mut self.queries[j];
             let rays = self.prepared[j].get_or_insert_with(|| TestRays::new(self.rays[j]));
-            if block.visit::<T, RaysByPrimitive, Q>(i, rays, query) {
-                self.frustum.look(j, T::above_f32(query.limit()));
-                any = true;
-            }
+            accepted |= u32::from(block.visit::<T, RaysByPrimitive, Q>(i, rays, &mut self.queries[j])) << j;
         }
-        any
+        accepted
     }
 }
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let extent = [0, 1, 2].map(|k| block.extent(k));
-        let boxes: Boxes = self.frustum.view().boxes(|k| extent[k][0], |k| extent[k][1]);
-        let mut left = self.frustum.primitives(&boxes) & ((1 << block.count()) - 1);
-        if left == 0 {
-            return false;
-        }
-        let edges = block.corners_of_triangles().map(|corner| self.frustum.edges(corner));
-        if let Some(edges) = &edges {
-            left &= self.frustum.triangles(edges);
-        }
-        self.met += left.count_ones() as usize;
-        let mut any = false;
-        while left != 0 {
-            let i = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let mut packets = self.frustum.packets(&boxes, i);
-            if let Some(edges) = &edges {
-                packets &= self.frustum.packets_at_edges(edges, i);
+        match block.corners_of_triangles() {
+            Some(corners) => {
+                let edges = self.frustum.edges(corners);
+                self.visit_primitives(block, self.frustum.triangles(&edges), |f, i| f.packets_at(&edges, i))
             }
-            any |= self.visit_packets(block, i, packets);
+            None => {
+                let extent = [0, 1, 2].map(|k| block.extent(k));
+                let boxes: Boxes = self.frustum.view().boxes(|k| extent[k][0], |k| extent[k][1]);
+                self.visit_primitives(block, self.frustum.primitives(&boxes), |f, i| f.packets(&boxes, i))
+            }
         }
-        if any {
-            self.frustum.update_reach();
-        }
-        any
     }
 }

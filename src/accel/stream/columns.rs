@@ -52,8 +52,6 @@ impl<R: Real> RayColumns<'_, R> {
     /// Eight rays from row `at` on; those beyond the end are turned off.
     #[inline(always)]
     pub(super) fn load<L: Lane<Scalar = R>>(&self, at: usize) -> RayLanes<L> {
-        let axes =
-            |c: &[&[R]; 3]| Vec3::new(L::load(&c[0][at..]), L::load(&c[1][at..]), L::load(&c[2][at..]));
         let t_max = self.t_max.load::<L>(at);
         let t_max = match self.len - at {
             count if count < WIDTH => {
@@ -62,8 +60,8 @@ impl<R: Real> RayColumns<'_, R> {
             _ => t_max,
         };
         RayLanes {
-            origin: axes(&self.origin),
-            direction: axes(&self.direction),
+            origin: load3(&self.origin, at),
+            direction: load3(&self.direction, at),
             t_min: self.t_min.load(at),
             t_max,
         }
@@ -80,6 +78,11 @@ impl<R: Real> RayColumns<'_, R> {
             t_max: self.t_max.get(row),
         }
     }
+}
+
+#[inline(always)]
+fn load3<L: Lane>(columns: &[&[L::Scalar]; 3], at: usize) -> Vec3<L> {
+    Vec3::new(L::load(&columns[0][at..]), L::load(&columns[1][at..]), L::load(&columns[2][at..]))
 }
 
 /// Nearest hits as columns.

@@ -264,17 +264,19 @@ impl Frustum {
     /// Of eight triangles, those that rays may meet.
     #[inline(always)]
     pub(super) fn triangles(&self, edges: &Edges) -> u32 {
-        edges.met(&self.all_about_middle)
+        edges.met(&self.all_about_middle) & edges.nearest.le(f32x8::splat(self.reach)).bits()
     }
 
     /// Packets that may meet triangle `i`.
     #[inline(always)]
-    pub(super) fn packets_at_edges(&self, edges: &Edges, i: usize) -> u32 {
+    pub(super) fn packets_at(&self, edges: &Edges, i: usize) -> u32 {
         let one = Edges {
             normal: three(|e| Vec3::splat(edges.normal[e].get(i))),
             pad: f32x8::splat(edges.pad.get(i)),
+            nearest: f32x8::splat(edges.nearest.get(i)),
         };
-        one.met(&self.packets_about_middle)
+        let reach = f32x8::new(self.packet_reach) + self.side_pad;
+        one.met(&self.packets_about_middle) & one.nearest.le(reach).bits()
     }
 
     /// How rays see things.
@@ -299,6 +301,8 @@ impl Slopes {
 pub(super) struct Edges {
     normal: [Vec3<f32x8>; 3],
     pad: f32x8,
+    /// Least `z`.
+    nearest: f32x8,
 }
 
 impl Edges {
@@ -308,7 +312,11 @@ impl Edges {
         let [a, b, c] = three(|v| shear(corners[v]));
         let size = a.abs().max(b.abs()).max(c.abs());
         let across = Lane::max(size.x, size.y) + spread * size.z;
-        Self { normal: [fused_cross(b, c), fused_cross(c, a), fused_cross(a, b)], pad: pad * across }
+        Self {
+            normal: [fused_cross(b, c), fused_cross(c, a), fused_cross(a, b)],
+            pad: pad * across,
+            nearest: a.z.min(b.z).min(c.z),
+        }
     }
 
     /// Lanes where not all rays pass on the outer side of one edge.

@@ -208,11 +208,13 @@ impl<'a, T: Tier> Bundles<'a, T> {
         self.rays.clear();
         queries.clear();
         for at in (first..end).step_by(WIDTH) {
-            let rays = rays.load::<T::Wide>(at);
-            let mut query = A::ask(&rays);
-            ask_planes(self.accel, &rays, &mut query);
-            self.rays.push(rays);
-            queries.push(query);
+            self.rays.push(rays.load::<T::Wide>(at));
+            queries.push(A::ask(&self.rays[self.rays.len() - 1]));
+        }
+        if !self.accel.planes.is_empty() {
+            for (rays, query) in self.rays.iter().zip(queries.iter_mut()) {
+                ask_planes(self.accel, rays, query);
+            }
         }
         let whole = apex.is_some_and(|apex| self.trace_bundle(apex, queries));
         for (j, at) in (first..end).step_by(WIDTH).enumerate() {
