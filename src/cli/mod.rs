@@ -23,6 +23,9 @@ mod source;
 mod stdio;
 mod summary;
 
-pub use args::{Args, CompletionsArgs, ManArgs, ProgressMode, RenderArgs, SceneArgs, ScenesArgs, Tier, Verb};
+pub use args::{
+    Args, BuildQuality, CompletionsArgs, InspectArgs, ManArgs, ProgressMode, RenderArgs, SceneArgs,
+    ScenesArgs, Tier, Verb,
+};
 pub use error::{CliError, Exit, exit_code};
 pub use source::SceneSource;
