@@ -89,6 +89,7 @@
 //! | [`film`] | samples into pixels, in an order that no thread can change |
 //! | [`output`] | films into PNG, PPM, EXR, PFM |
 //! | [`math`] | the lanes that all of it is written over |
+//! | [`measure`] | scenes into rays a second, here and in other ray tracers |
 //! | [`cli`] | arguments into all of the above |
 //!
 //! # Which tier
@@ -115,6 +116,7 @@ pub mod geometry;
 pub mod intersect;
 pub mod load;
 pub mod math;
+pub mod measure;
 pub mod output;
 pub mod sampling;
 pub mod scene;

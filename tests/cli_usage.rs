@@ -25,7 +25,9 @@ fn stderr_of(arguments: &[&str], code: i32) -> String {
 #[test]
 fn help_names_every_verb_and_the_exit_codes() {
     let help = stdout_of(&["--help"]);
-    for word in ["render", "inspect", "scenes", "schema", "completions", "man", "Exit codes", "NO_COLOR"] {
+    for word in
+        ["render", "inspect", "bench", "scenes", "schema", "completions", "man", "Exit codes", "NO_COLOR"]
+    {
         assert!(help.contains(word), "{word} in\n{help}");
     }
 }
@@ -116,7 +118,7 @@ fn manual_pages_exist_for_the_program_and_its_verbs() {
     let page = stdout_of(&["man"]);
     assert!(page.contains(".TH octray 1") && page.contains("octray\\-render(1)"), "{page}");
     assert!(page.contains("Exit codes"), "{page}");
-    for verb in ["render", "inspect", "scenes", "schema", "completions", "man"] {
+    for verb in ["render", "inspect", "bench", "scenes", "schema", "completions", "man"] {
         let page = stdout_of(&["man", verb]);
         assert!(page.contains(&format!(".TH octray-{verb} 1")), "{page}");
     }

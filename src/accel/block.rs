@@ -2,7 +2,8 @@
 
 use crate::geometry::Geometry;
 use crate::intersect::{PrimId, PrimKind, cylinder, sphere};
-use crate::math::{Lane, Mask, Vec3, WIDTH, eight, three};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight, three};
+use wide::f32x8;
 
 /// How a leaf is walked: which primitive stands in which lane at a step.
 pub trait Walk: Copy {
@@ -138,6 +139,16 @@ impl TriangleBlock {
         let bits = |block: &Self| block.corner.map(|c| c.map(|axis| axis.map(f32::to_bits)));
         bits(self) == bits(o)
     }
+    /// The corners of triangle `i`.
+    #[inline(always)]
+    pub fn corners_of<R: Real>(&self, i: usize) -> [Vec3<R>; 3] {
+        three(|v| Vec3::splat_f32(three(|k| self.corner[v][k][i])))
+    }
+    /// Corners, axes and triangles.
+    #[inline(always)]
+    pub fn corner_columns(&self) -> &[[[f32; WIDTH]; 3]; 3] {
+        &self.corner
+    }
     /// Corners of the primitives at a step.
     #[inline(always)]
     pub fn corners<W: Walk, L: Lane>(&self, step: usize) -> [Vec3<L>; 3] {
@@ -204,20 +215,64 @@ pub trait Block {
     fn count(&self) -> u32;
     /// Their ids.
     fn ids(&self) -> &[u32; WIDTH];
+    /// Their boxes along an axis, least and greatest coordinates, up to a roundoff; NaN in free lanes.
+    fn extent(&self, axis: usize) -> [f32x8; 2];
+    /// The corners, if they are triangles.
+    fn corners_of_triangles(&self) -> Option<&[[[f32; WIDTH]; 3]; 3]> {
+        None
+    }
 }
 
-macro_rules! block {
-    ($($t:ty),*) => {$(
-        impl Block for $t {
-            #[inline(always)]
-            fn count(&self) -> u32 {
-                self.len
-            }
-            #[inline(always)]
-            fn ids(&self) -> &[u32; WIDTH] {
-                &self.id
-            }
-        }
-    )*};
+impl Block for TriangleBlock {
+    #[inline(always)]
+    fn count(&self) -> u32 {
+        self.len
+    }
+    #[inline(always)]
+    fn ids(&self) -> &[u32; WIDTH] {
+        &self.id
+    }
+    #[inline(always)]
+    fn extent(&self, axis: usize) -> [f32x8; 2] {
+        let [a, b, c] = three(|v| f32x8::new(self.corner[v][axis]));
+        [Lane::min(Lane::min(a, b), c), Lane::max(Lane::max(a, b), c)]
+    }
+    #[inline(always)]
+    fn corners_of_triangles(&self) -> Option<&[[[f32; WIDTH]; 3]; 3]> {
+        Some(&self.corner)
+    }
 }
-block!(TriangleBlock, SphereBlock, CylinderBlock);
+
+impl Block for SphereBlock {
+    #[inline(always)]
+    fn count(&self) -> u32 {
+        self.len
+    }
+    #[inline(always)]
+    fn ids(&self) -> &[u32; WIDTH] {
+        &self.id
+    }
+    #[inline(always)]
+    fn extent(&self, axis: usize) -> [f32x8; 2] {
+        let (center, radius) = (f32x8::new(self.center[axis]), f32x8::new(self.radius));
+        [center - radius, center + radius]
+    }
+}
+
+/// The box of the balls around both ends holds the cylinder.
+impl Block for CylinderBlock {
+    #[inline(always)]
+    fn count(&self) -> u32 {
+        self.len
+    }
+    #[inline(always)]
+    fn ids(&self) -> &[u32; WIDTH] {
+        &self.id
+    }
+    #[inline(always)]
+    fn extent(&self, axis: usize) -> [f32x8; 2] {
+        let (from, to) = (f32x8::new(self.from[axis]), f32x8::new(self.to[axis]));
+        let radius = f32x8::new(self.radius);
+        [Lane::min(from, to) - radius, Lane::max(from, to) + radius]
+    }
+}

@@ -6,12 +6,13 @@
 
 use super::Accel;
 use super::block::Walk;
-use super::leaf::{PreparedRays, visit_leaf};
+use super::leaf::{AllSteps, PreparedRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::query::Query;
 use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
 use crate::math::{Mask, three};
+use std::marker::PhantomData;
 use wide::f32x8;
 
 /// How rays go down the tree.
@@ -71,7 +72,7 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
     stack: &mut Vec<D::Entry>,
 ) {
     let base = stack.len();
-    let t_min = T::below_f32(rays.ray.t_min);
+    let t_min = T::below_f32(rays.test.ray.t_min);
     let octant = Octant::of(&rays.cull);
     stack.push(D::entry(ChildRef::node(root)));
     while stack.len() > base && !query.is_done() {
@@ -85,10 +86,12 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
             let node = &accel.nodes[child.index() as usize];
             D::push_children(node, &rays.cull, octant, (t_min, limit), stack);
         } else if child.kind() == Accel::INSTANCE {
-            accel.visit_instances::<T, Q>(child, rays, query, |root, local, query| {
+            accel.visit_instances::<T, Q>(child, &rays.test.ray, query, |root, local, query| {
                 descend::<T, D, Q>(accel, root, local, query, stack)
             });
-        } else if visit_leaf::<T, D, Q>(accel, child, rays, query) && D::ONE_RAY {
+        } else if with_block(accel, child, &mut AllSteps { rays: &rays.test, query, walk: PhantomData::<D> })
+            && D::ONE_RAY
+        {
             query.share_limit();
         }
     }

@@ -1,79 +1,123 @@
 //! Testing the primitives of a leaf, for every walk, query and tier.
 
 use super::Accel;
-use super::block::{Block, Walk};
+use super::block::{Block, CylinderBlock, SphereBlock, TriangleBlock, Walk};
 use super::node::ChildRef;
 use super::query::Query;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::{Curved, LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
 use crate::math::Vec3;
+use std::marker::PhantomData;
 
-/// Rays with all that the tests of a tier prepare once a ray.
+/// Rays with all that the primitive tests of a tier prepare once a ray.
+#[derive(Clone, Copy)]
+pub(super) struct TestRays<T: Tier> {
+    pub(super) ray: RayLanes<T::Wide>,
+    pub(super) triangle: <T::Triangle as TriangleTest>::Prepared<T::Wide>,
+}
+
+impl<T: Tier> TestRays<T> {
+    #[inline(always)]
+    pub(super) fn new(ray: RayLanes<T::Wide>) -> Self {
+        Self { triangle: T::Triangle::prepare(&ray), ray }
+    }
+}
+
+/// Rays prepared for boxes and primitives.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRays<T: Tier> {
-    pub(super) ray: RayLanes<T::Wide>,
+    pub(super) test: TestRays<T>,
     pub(super) cull: CullRay<wide::f32x8>,
-    pub(super) triangle: <T::Triangle as TriangleTest>::Prepared<T::Wide>,
 }
 
 impl<T: Tier> PreparedRays<T> {
     /// Prepares rays for a tree whose coordinates are at most `scale`.
     #[inline(always)]
     pub(super) fn new(ray: RayLanes<T::Wide>, scale: f32) -> Self {
-        let narrow = |v: Vec3<T::Wide>| Vec3 {
-            x: T::nearest_f32(v.x),
-            y: T::nearest_f32(v.y),
-            z: T::nearest_f32(v.z),
-        };
-        let cull = CullRay::new(narrow(ray.origin), narrow(ray.direction), wide::f32x8::splat(scale));
-        Self { cull, triangle: T::Triangle::prepare(&ray), ray }
+        Self { cull: cull_rays::<T>(&ray, scale), test: TestRays::new(ray) }
     }
 }
 
-/// Puts the primitives of a leaf to the query; true if any was accepted.
+/// Rays prepared for the boxes of a tree whose coordinates are at most `scale`.
 #[inline(always)]
-pub(super) fn visit_leaf<T: Tier, W: Walk, Q: Query<T::Wide>>(
-    accel: &Accel,
-    leaf: ChildRef,
-    rays: &PreparedRays<T>,
-    query: &mut Q,
-) -> bool {
+pub(super) fn cull_rays<T: Tier>(ray: &RayLanes<T::Wide>, scale: f32) -> CullRay<wide::f32x8> {
+    let narrow =
+        |v: Vec3<T::Wide>| Vec3 { x: T::nearest_f32(v.x), y: T::nearest_f32(v.y), z: T::nearest_f32(v.z) };
+    CullRay::new(narrow(ray.origin), narrow(ray.direction), wide::f32x8::splat(scale))
+}
+
+/// A block that rays of a tier can be tested against.
+pub(super) trait Testable: Block {
+    /// Meets rays with the primitives at a step of the walk.
+    fn test<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>, limit: T::Wide) -> LaneHit<T::Wide>;
+
+    /// Puts the primitives at a step of the walk to the query; true if any was accepted.
+    #[inline(always)]
+    fn visit<T: Tier, W: Walk, Q: Query<T::Wide>>(
+        &self,
+        step: usize,
+        rays: &TestRays<T>,
+        query: &mut Q,
+    ) -> bool {
+        let hit = self.test::<T, W>(step, rays, query.limit());
+        query.accept(&rays.ray, &hit, W::ids(self.ids(), step))
+    }
+}
+
+impl Testable for TriangleBlock {
+    #[inline(always)]
+    fn test<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>, limit: T::Wide) -> LaneHit<T::Wide> {
+        T::Triangle::test(&rays.ray, &rays.triangle, self.corners::<W, _>(step), limit)
+    }
+}
+
+impl Testable for SphereBlock {
+    #[inline(always)]
+    fn test<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>, _: T::Wide) -> LaneHit<T::Wide> {
+        T::Curved::sphere(&rays.ray, &self.spheres::<W, _>(step))
+    }
+}
+
+impl Testable for CylinderBlock {
+    #[inline(always)]
+    fn test<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>, _: T::Wide) -> LaneHit<T::Wide> {
+        T::Curved::cylinder(&rays.ray, &self.cylinders::<W, _>(step))
+    }
+}
+
+/// What is done with the block of a leaf, whatever its kind.
+pub(super) trait BlockVisitor {
+    /// Visits a block; true if a hit was accepted.
+    fn visit<B: Testable>(&mut self, block: &B) -> bool;
+}
+
+/// Shows the visitor the block of a leaf.
+#[inline(always)]
+pub(super) fn with_block(accel: &Accel, leaf: ChildRef, visitor: &mut impl BlockVisitor) -> bool {
     const TRIANGLE: u8 = PrimKind::Triangle as u8;
     const SPHERE: u8 = PrimKind::Sphere as u8;
-    let ray = &rays.ray;
+    let index = leaf.index() as usize;
     match leaf.kind() {
-        TRIANGLE => {
-            let block = &accel.triangles[leaf.index() as usize];
-            visit_block::<T, W, Q, _>(block, ray, query, |step, limit| {
-                T::Triangle::test(ray, &rays.triangle, block.corners::<W, _>(step), limit)
-            })
-        }
-        SPHERE => {
-            let block = &accel.spheres[leaf.index() as usize];
-            visit_block::<T, W, Q, _>(block, ray, query, |step, _| {
-                T::Curved::sphere(ray, &block.spheres::<W, _>(step))
-            })
-        }
-        _ => {
-            let block = &accel.cylinders[leaf.index() as usize];
-            visit_block::<T, W, Q, _>(block, ray, query, |step, _| {
-                T::Curved::cylinder(ray, &block.cylinders::<W, _>(step))
-            })
-        }
+        TRIANGLE => visitor.visit(&accel.triangles[index]),
+        SPHERE => visitor.visit(&accel.spheres[index]),
+        _ => visitor.visit(&accel.cylinders[index]),
     }
 }
 
-#[inline(always)]
-fn visit_block<T: Tier, W: Walk, Q: Query<T::Wide>, B: Block>(
-    block: &B,
-    ray: &RayLanes<T::Wide>,
-    query: &mut Q,
-    test: impl Fn(usize, T::Wide) -> LaneHit<T::Wide>,
-) -> bool {
-    let mut accepted = false;
-    for step in 0..W::steps(block.count()) {
-        let hit = test(step, query.limit());
-        accepted |= query.accept(ray, &hit, W::ids(block.ids(), step));
+/// Puts all primitives of a block to one query.
+pub(super) struct AllSteps<'a, T: Tier, W, Q> {
+    pub(super) rays: &'a TestRays<T>,
+    pub(super) query: &'a mut Q,
+    pub(super) walk: PhantomData<W>,
+}
+
+impl<T: Tier, W: Walk, Q: Query<T::Wide>> BlockVisitor for AllSteps<'_, T, W, Q> {
+    #[inline(always)]
+    fn visit<B: Testable>(&mut self, block: &B) -> bool {
+        let mut accepted = false;
+        for step in 0..W::steps(block.count()) {
+            accepted |= block.visit::<T, W, Q>(step, self.rays, self.query);
+        }
+        accepted
     }
-    accepted
 }

@@ -8,14 +8,17 @@ mod cover;
 mod descend;
 mod leaf;
 pub mod node;
+mod order;
 mod packet;
 pub mod query;
 mod ray_scene;
 mod refit;
 mod single;
+pub mod stream;
 #[cfg(test)]
 mod tests;
 mod traversal;
+mod unchecked;
 pub mod validate;
 pub mod visits;
 
@@ -23,7 +26,7 @@ use block::{Block, CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
 use node::{ChildRef, Node8};
 
 use crate::geometry::Group;
-use crate::intersect::{RayLanes, Tier};
+use crate::intersect::{PrimKind, RayLanes, Tier};
 use crate::math::{Aabb, Lane, Transform, Vec3};
 use leaf::PreparedRays;
 use query::Query;
@@ -106,6 +109,28 @@ impl Accel {
         sizes.map(|(name, size)| (name.to_owned(), size as u64)).to_vec()
     }
 
+    /// All nodes, and the root of the world's tree among them, for walks that count.
+    pub(crate) fn nodes(&self) -> (&[Node8], ChildRef) {
+        (&self.nodes, ChildRef::node(self.world.node))
+    }
+    /// Largest coordinate of the world's tree.
+    pub(crate) fn scale(&self) -> f32 {
+        self.world.scale
+    }
+    /// Ids of the primitives in a leaf; none in a leaf of instances.
+    pub(crate) fn leaf_ids(&self, leaf: ChildRef) -> &[u32] {
+        fn counted(block: &impl Block) -> &[u32] {
+            &block.ids()[..block.count() as usize]
+        }
+        let i = leaf.index() as usize;
+        match leaf.kind() {
+            k if k == PrimKind::Triangle as u8 => counted(&self.triangles[i]),
+            k if k == PrimKind::Sphere as u8 => counted(&self.spheres[i]),
+            k if k == PrimKind::Cylinder as u8 => counted(&self.cylinders[i]),
+            _ => &[],
+        }
+    }
+
     /// Rays in the space of an instance; `t` keeps its meaning, since directions keep their lengths' ratio.
     #[inline(always)]
     fn local_rays<L: Lane>(to_world: &Transform, ray: &RayLanes<L>) -> RayLanes<L> {
@@ -123,14 +148,14 @@ impl Accel {
     fn visit_instances<T: Tier, Q: Query<T::Wide>>(
         &self,
         leaf: ChildRef,
-        rays: &PreparedRays<T>,
+        ray: &RayLanes<T::Wide>,
         query: &mut Q,
         mut traverse: impl FnMut(u32, &PreparedRays<T>, &mut Q),
     ) {
         let block = &self.instance_blocks[leaf.index() as usize];
         for &row in &block.rows[..block.len as usize] {
             let placed = &self.instances[row as usize];
-            let local = Self::local_rays(&placed.to_world, &rays.ray);
+            let local = Self::local_rays(&placed.to_world, ray);
             query.enter_instance(row + 1);
             traverse(placed.tree.node, &PreparedRays::new(local, placed.tree.scale), query);
         }

@@ -97,6 +97,11 @@ impl ChildRef {
     pub const fn is_leaf(self) -> bool {
         !self.is_node() && !self.is_empty()
     }
+    /// The reference of these 32 bits.
+    #[inline(always)]
+    pub(super) const fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
     /// The 32 bits.
     #[inline(always)]
     pub const fn bits(self) -> u32 {

@@ -15,6 +15,13 @@ pub trait Query<L: Lane> {
     fn enter_instance(&mut self, instance: u32);
     /// Lanes hold candidates of one and the same ray: brings all to the nearest limit.
     fn share_limit(&mut self);
+
+    /// True if lane `i` still needs anything.
+    fn asks(&self, i: usize) -> bool;
+    /// The question of lane `i`, and what it found so far, in all lanes.
+    fn splat_lane(&self, i: usize) -> Self;
+    /// Takes what the lanes of `found`, all one ray, found together into lane `i`.
+    fn take_lane(&mut self, i: usize, found: &Self);
 }
 
 /// The nearest hit of each lane.
@@ -96,6 +103,33 @@ impl<L: Lane> Query<L> for Closest<L> {
         let nearest = (1..L::WIDTH).fold(self.t.get(0), |t, i| t.min(self.t.get(i)));
         self.limit = L::splat(nearest);
     }
+
+    #[inline(always)]
+    fn asks(&self, i: usize) -> bool {
+        self.limit.get(i) > <L::Scalar as Lane>::constant(f64::NEG_INFINITY)
+    }
+    #[inline(always)]
+    fn splat_lane(&self, i: usize) -> Self {
+        Self {
+            u: L::splat(self.u.get(i)),
+            v: L::splat(self.v.get(i)),
+            prim: L::Bits::splat(self.prim.get(i)),
+            instance: L::Bits::splat(self.instance.get(i)),
+            ..Self::new(L::splat(self.t.get(i)))
+        }
+    }
+    #[inline(always)]
+    fn take_lane(&mut self, i: usize, found: &Self) {
+        let (best, lane) = (found.nearest_lane(), L::Mask::from_bits(1 << i));
+        let take = |from: L, to: L| L::select(lane, L::splat(from.get(best)), to);
+        let take_bits = |from: L::Bits, to| L::select_bits(lane, L::Bits::splat(from.get(best)), to);
+        self.t = take(found.t, self.t);
+        self.u = take(found.u, self.u);
+        self.v = take(found.v, self.v);
+        self.prim = take_bits(found.prim, self.prim);
+        self.instance = take_bits(found.instance, self.instance);
+        self.limit = self.t;
+    }
 }
 
 /// Whether each lane hits anything.
@@ -145,5 +179,22 @@ impl<L: Lane> Query<L> for AnyHit<L> {
     fn share_limit(&mut self) {
         // One hit ends the ray in all lanes.
         self.hit = L::Mask::splat(true);
+    }
+
+    #[inline(always)]
+    fn asks(&self, i: usize) -> bool {
+        self.limit.get(i) > <L::Scalar as Lane>::constant(f64::NEG_INFINITY)
+    }
+    #[inline(always)]
+    fn splat_lane(&self, i: usize) -> Self {
+        Self::new(L::splat(self.limit.get(i)))
+    }
+    #[inline(always)]
+    fn take_lane(&mut self, i: usize, found: &Self) {
+        if found.hit.any() {
+            let lane = L::Mask::from_bits(1 << i);
+            self.hit = self.hit | lane;
+            self.limit = L::select(lane, L::constant(f64::NEG_INFINITY), self.limit);
+        }
     }
 }

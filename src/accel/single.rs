@@ -12,8 +12,15 @@ use wide::f32x8;
 /// A child to visit, and where the ray enters it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
-    near: f32,
-    child: ChildRef,
+    pub(super) near: f32,
+    pub(super) child: ChildRef,
+}
+
+impl Entry {
+    #[inline(always)]
+    pub(super) fn new(near: f32, child: ChildRef) -> Self {
+        Self { near, child }
+    }
 }
 
 impl Descend for PrimitivesByRay {

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
+use super::bench::BenchArgs;
 use super::simd;
 use super::source::SceneSource;
 use crate::output::Format;
@@ -15,6 +16,7 @@ Exit codes:
   1  failed while running (files, memory, interrupted)
   2  wrong use
   3  bad scene or asset
+  4  slower than the baseline (octray bench)
 
 Data goes to standard output, everything else to standard error. NO_COLOR is honoured.";
 
@@ -34,6 +36,8 @@ pub enum Verb {
     Render(Box<RenderArgs>),
     /// Show what a scene holds and which stages it needs
     Inspect(InspectArgs),
+    /// Measure rays a second
+    Bench(Box<BenchArgs>),
     /// List the built-in scenes, or print one as a scene file
     Scenes(ScenesArgs),
     /// Print the JSON Schema of scene files
@@ -202,7 +206,7 @@ impl RenderArgs {
     }
 }
 
-fn parse_size(text: &str) -> Result<[u32; 2], String> {
+pub(super) fn parse_size(text: &str) -> Result<[u32; 2], String> {
     let side = |text: &str| text.parse::<u32>().ok().filter(|&side| side > 0);
     text.split_once('x')
         .and_then(|(width, height)| Some([side(width)?, side(height)?]))

@@ -16,6 +16,8 @@ pub enum Exit {
     Usage = 2,
     /// A bad scene or asset.
     Scene = 3,
+    /// Slower than the baseline.
+    Regression = 4,
 }
 
 /// Why a verb failed.
@@ -137,7 +139,8 @@ mod tests {
 
     #[test]
     fn exit_codes_have_their_numbers() {
-        assert_eq!([Exit::Failed as u8, Exit::Usage as u8, Exit::Scene as u8], [1, 2, 3]);
+        let codes = [Exit::Failed, Exit::Usage, Exit::Scene, Exit::Regression].map(|exit| exit as u8);
+        assert_eq!(codes, [1, 2, 3, 4]);
         let unknown = OutputError::UnknownFormat { path: "a.jpg".into() };
         assert_eq!(CliError::from(unknown).exit(), Exit::Usage);
     }

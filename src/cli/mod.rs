@@ -1,9 +1,10 @@
 //! The command line: one file a verb, and what the verbs share.
 //!
 //! Data goes to standard output, everything else to standard error. Exit codes: 0 done, 1 failed while running,
-//! 2 wrong use, 3 bad scene or asset.
+//! 2 wrong use, 3 bad scene or asset, 4 slower than the baseline.
 
 mod args;
+pub mod bench;
 pub mod completions;
 mod destination;
 mod error;
@@ -27,5 +28,6 @@ pub use args::{
     Args, BuildQuality, CompletionsArgs, InspectArgs, ManArgs, ProgressMode, RenderArgs, SceneArgs,
     ScenesArgs, Tier, Verb,
 };
+pub use bench::BenchArgs;
 pub use error::{CliError, Exit, exit_code};
 pub use source::SceneSource;

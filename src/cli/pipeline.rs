@@ -39,6 +39,23 @@ pub(super) fn open(
     Ok(Opened { name: source.to_string(), scene })
 }
 
+/// Compiles a scene in the current rayon pool for a picture of a size, a mesh alone: without floor, materials and normals.
+///
+/// **Errors**: as [`open`].
+pub(super) fn open_bare(source: &SceneSource, size: [u32; 2]) -> Result<Scene, CliError> {
+    let mut description = describe(source, &[])?;
+    description.render.size = size;
+    if is_mesh(source) {
+        let floor = description.quad.pop();
+        for mesh in &mut description.mesh {
+            // Any material in place of the file's own, so that those are not read.
+            mesh.material = floor.as_ref().and_then(|floor| floor.material.clone());
+            mesh.normals = false;
+        }
+    }
+    Scene::compile(&description).map_err(|error| CliError::of(Exit::Scene, error))
+}
+
 fn describe(source: &SceneSource, sets: &[String]) -> Result<SceneDescription, CliError> {
     match source {
         SceneSource::Stdin => {
@@ -47,7 +64,7 @@ fn describe(source: &SceneSource, sets: &[String]) -> Result<SceneDescription, C
             read.map_err(|error| CliError::new(Exit::Failed, "cannot read standard input").because(error))?;
             describe::parse_with(&text, "standard input", sets).map_err(refused)
         }
-        SceneSource::File(path) if is_mesh(path) => {
+        SceneSource::File(path) if is_mesh(source) => {
             framed(path)?.amended(&source.to_string(), sets).map_err(refused)
         }
         SceneSource::File(path) => describe::read_with(path, sets).map_err(refused),
@@ -55,7 +72,9 @@ fn describe(source: &SceneSource, sets: &[String]) -> Result<SceneDescription, C
     }
 }
 
-fn is_mesh(path: &Path) -> bool {
+/// True if the source is a mesh without a scene.
+pub(super) fn is_mesh(source: &SceneSource) -> bool {
+    let SceneSource::File(path) = source else { return false };
     let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
     ending.is_some_and(|e| MESHES.contains(&e.as_str()))
 }

@@ -77,6 +77,10 @@ impl PrimId {
         assert!(row < Self::MAX_ROWS, "a scene holds at most 2^29 primitives of a kind");
         Self((kind as u32) << Self::ROW_BITS | row as u32)
     }
+    /// The id that a column of hits holds.
+    pub fn from_bits(bits: u32) -> Self {
+        Self(bits)
+    }
     /// The kind.
     #[inline(always)]
     pub fn kind(self) -> PrimKind {

@@ -4,7 +4,7 @@ use wide::{f32x8, f64x8};
 
 use super::triangle::{MollerTrumbore, Woop};
 use super::{LaneHit, RayLanes, cylinder, sphere};
-use crate::math::{Lane, Real, Vec3};
+use crate::math::{Lane, Real, Vec3, WIDTH};
 
 /// A triangle test: what it prepares once a ray, and what it asks of a triangle.
 pub trait TriangleTest: Copy + Send + Sync + 'static {
@@ -19,6 +19,24 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
         vertices: [Vec3<L>; 3],
         limit: L,
     ) -> LaneHit<L>;
+
+    /// What is computed once for a ray that meets eight triangles at a time.
+    type OneRay<R: Real>: Copy;
+    /// Prepares a ray.
+    fn prepare_one<R: Real>(ray: &RayLanes<R>) -> Self::OneRay<R>;
+    /// Of eight triangles, stored by corner and axis, the lanes that [`TriangleTest::test`] may accept, as bits.
+    fn candidates<L: Lane>(
+        ray: &RayLanes<L::Scalar>,
+        prepared: &Self::OneRay<L::Scalar>,
+        corners: &[[[f32; WIDTH]; 3]; 3],
+    ) -> u32;
+    /// [`TriangleTest::test`] of a candidate.
+    fn test_candidate<R: Real>(
+        ray: &RayLanes<R>,
+        prepared: &Self::OneRay<R>,
+        vertices: [Vec3<R>; 3],
+        limit: R,
+    ) -> LaneHit<R>;
 }
 
 /// How spheres and cylinders are decided.

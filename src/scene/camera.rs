@@ -54,6 +54,11 @@ fn splat<L: Lane>(v: [f64; 3]) -> Vec3<L> {
 }
 
 impl Camera {
+    /// The point that all rays start from.
+    pub fn common_origin(&self) -> Option<[f32; 3]> {
+        matches!(self.projection, Projection::Pinhole).then(|| self.position.map(|x| x as f32))
+    }
+
     /// Rays through places of the film, -1 to 1 from left to right and from bottom to top.
     ///
     /// `lens` are points of the unit disk, wanted by the thin lens alone.

@@ -34,6 +34,15 @@ impl Light {
         }
     }
 
+    /// The point that rays along `to_light` meet in.
+    pub fn position(&self) -> Option<[f32; 3]> {
+        match self {
+            Self::Point(light) => Some(light.position),
+            Self::Directional(_) => None,
+            Self::Spot(light) => Some(light.position()),
+        }
+    }
+
     /// Where the light lies on a ray along `to_light`.
     pub fn t_max(&self) -> f64 {
         if matches!(self, Self::Directional(_)) { f64::INFINITY } else { 1.0 }

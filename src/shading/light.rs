@@ -78,6 +78,11 @@ impl SpotLight {
         Self { point, axis, cos_cone, inverse_width }
     }
 
+    /// Where it is.
+    pub fn position(&self) -> [f32; 3] {
+        self.point.position
+    }
+
     /// That of a point light, times a smooth step in the cosine to the axis.
     ///
     /// **Source:** the cubic `t^2 (3 - 2t)` between the cosines, as in RenderMan's and pbrt's spotlights.

@@ -8,8 +8,9 @@ use super::queue::{Column3, column, compress_words, words};
 use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
 use crate::accel::Hint;
+use crate::accel::stream::{Apex, Bound, RayColumns};
 use crate::geometry::gather3;
-use crate::intersect::{RayLanes, Tier};
+use crate::intersect::Tier;
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
 use crate::scene::Light;
 use crate::shading::{Lobes, blinn_phong};
@@ -21,6 +22,8 @@ struct ShadowQueue<'a, R> {
     direction: Column3<'a, R>,
     radiance: Column3<'a, R>,
     slot: &'a mut [u32],
+    /// A bit a ray.
+    occluded: &'a mut [u8],
 }
 
 /// Adds the light of all lights that reaches the surfaces.
@@ -33,6 +36,7 @@ pub(super) fn connect<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T
         direction: Column3::new(arena, n + WIDTH),
         radiance: Column3::new(arena, n + WIDTH),
         slot: column(arena, n + WIDTH),
+        occluded: column(arena, n / WIDTH + 1),
     };
     for light in &scene.lights {
         queue.len = 0;
@@ -41,7 +45,7 @@ pub(super) fn connect<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T
             false => shade::<T, false>(worker, surfaces, light, &mut queue),
         }
         worker.rays.shadow += queue.len as u64;
-        trace(worker, light, &queue);
+        trace(worker, light, &mut queue);
     }
 }
 
@@ -99,19 +103,18 @@ fn reflected<T: Tier, const FRACTION: bool>(
 }
 
 /// Traces shadow rays up to the light and adds the light of those that nothing stops.
-fn trace<T: Tier>(worker: &mut Worker<T>, light: &Light, queue: &ShadowQueue<T::Real>) {
-    let t_max = <T::Real as Lane>::constant(light.t_max());
-    let off = <T::Real as Lane>::constant(f64::NEG_INFINITY);
+fn trace<T: Tier>(worker: &mut Worker<T>, light: &Light, queue: &mut ShadowQueue<T::Real>) {
+    let rays = RayColumns {
+        len: queue.len,
+        origin: queue.origin.rows_from(0),
+        direction: queue.direction.rows_from(0),
+        t_min: Bound::All(T::Real::constant(0.0)),
+        t_max: Bound::All(T::Real::constant(light.t_max())),
+    };
+    worker.stream.any(&rays, light.position().map(Apex::Target), Hint::Auto, queue.occluded);
     for at in (0..queue.len).step_by(WIDTH) {
         let count = (queue.len - at).min(WIDTH);
-        let ray = RayLanes {
-            origin: queue.origin.load(at),
-            direction: queue.direction.load(at),
-            t_min: T::Wide::zero(),
-            t_max: T::Wide::from_fn(|i| if i < count { t_max } else { off }),
-        };
-        let blocked = worker.traversal.any::<T>(&ray, Hint::Auto);
-        let lanes = !blocked & ((1u64 << count) - 1) as u32;
+        let lanes = !u32::from(queue.occluded[at / WIDTH]) & ((1u64 << count) - 1) as u32;
         worker.radiance.add(words(queue.slot, at), queue.radiance.load::<T::Wide>(at), lanes);
     }
 }

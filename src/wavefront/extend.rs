@@ -2,12 +2,12 @@
 
 use bumpalo::Bump;
 
-use super::queue::{PathQueue, column, padded};
+use super::queue::{PathQueue, column};
 use super::wave::Worker;
 use crate::accel::Hint;
-use crate::accel::query::Closest;
-use crate::intersect::{PrimId, PrimKind, RayLanes, Tier};
-use crate::math::{Lane, Mask, Real, WIDTH};
+use crate::accel::stream::{Apex, Bound, HitColumns, RayColumns};
+use crate::intersect::{PrimId, PrimKind, Tier};
+use crate::math::{Lane, Real};
 
 /// Nearest hits of a chunk of paths, and the paths by what they hit.
 ///
@@ -28,7 +28,7 @@ pub(super) fn extend<'a, T: Tier>(
     worker: &mut Worker<T>,
     queue: &PathQueue<T::Real>,
     (first, n): (usize, usize),
-    hint: Hint,
+    apex: Option<Apex>,
     arena: &'a Bump,
 ) -> Hits<'a, T::Real> {
     let requirements = &worker.frame.scene.requirements;
@@ -42,46 +42,29 @@ pub(super) fn extend<'a, T: Tier>(
         misses: list(),
         by_kind: [list(), list(), list(), list()],
     };
-    for at in (0..padded(n)).step_by(WIDTH) {
-        let count = (n - at).min(WIDTH);
-        let ray = load_rays::<T>(queue, first + at, count);
-        let found = worker.traversal.closest::<T>(&ray, hint);
-        hits.store::<T>(at, count, &found, found.t.lt(ray.t_max).bits());
-    }
+    let rays = RayColumns {
+        len: n,
+        origin: queue.origin.rows_from(first),
+        direction: queue.direction.rows_from(first),
+        t_min: Bound::Each(&queue.t_min[first..]),
+        t_max: Bound::All(T::Real::constant(f64::INFINITY)),
+    };
+    let mut found = HitColumns { t: hits.t, u: hits.u, v: hits.v, prim: hits.prim, instance: hits.instance };
+    worker.stream.closest(&rays, apex, Hint::Auto, &mut found);
+    hits.sort(n);
     hits
 }
 
 impl<R: Real> Hits<'_, R> {
-    /// Takes note of what eight paths hit, of which the first `count` are there.
-    #[inline(always)]
-    fn store<T: Tier<Real = R>>(&mut self, at: usize, count: usize, found: &Closest<T::Wide>, hit: u32) {
-        found.t.store(&mut self.t[at..]);
-        found.u.store(&mut self.u[at..]);
-        found.v.store(&mut self.v[at..]);
-        let prims = found.prim.to_array();
-        self.prim[at..at + WIDTH].copy_from_slice(&prims);
-        if let Some(instance) = self.instance.get_mut(at..at + WIDTH) {
-            instance.copy_from_slice(&found.instance.to_array());
-        }
-        for (i, &prim) in prims.iter().enumerate().take(count) {
-            let row = (at + i) as u32;
-            match hit >> i & 1 {
-                0 => self.misses.push(row),
-                _ => self.by_kind[PrimId(prim).kind() as usize - 1].push(row),
+    /// Sorts the paths by what they hit.
+    fn sort(&mut self, n: usize) {
+        let infinity = R::constant(f64::INFINITY);
+        for row in 0..n {
+            match self.t[row] < infinity {
+                false => self.misses.push(row as u32),
+                true => self.by_kind[PrimId(self.prim[row]).kind() as usize - 1].push(row as u32),
             }
         }
-    }
-}
-
-/// Eight paths as rays without end; lanes beyond `count` are turned off.
-#[inline(always)]
-fn load_rays<T: Tier>(queue: &PathQueue<T::Real>, at: usize, count: usize) -> RayLanes<T::Wide> {
-    let infinity = <T::Real as Lane>::constant(f64::INFINITY);
-    RayLanes {
-        origin: queue.origin.load(at),
-        direction: queue.direction.load(at),
-        t_min: T::Wide::load(&queue.t_min[at..]),
-        t_max: T::Wide::from_fn(|i| if i < count { infinity } else { -infinity }),
     }
 }
 

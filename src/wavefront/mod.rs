@@ -20,4 +20,5 @@ mod tile;
 mod wave;
 
 pub use render::{Progress, RenderError, RenderOptions, RenderReport, render};
+pub(crate) use surface::{HitLanes, evaluate};
 pub use wave::RayCounts;

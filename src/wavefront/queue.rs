@@ -23,6 +23,10 @@ impl<'a, R: Real> Column3<'a, R> {
     pub(super) fn new(arena: &'a Bump, n: usize) -> Self {
         Self([column(arena, n), column(arena, n), column(arena, n)])
     }
+    /// The columns from row `at` on.
+    pub(super) fn rows_from(&self, at: usize) -> [&[R]; 3] {
+        self.0.each_ref().map(|column| &column[at..])
+    }
     /// Eight rows from `at` on.
     #[inline(always)]
     pub(super) fn load<L: Lane<Scalar = R>>(&self, at: usize) -> Vec3<L> {

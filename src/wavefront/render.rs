@@ -1,6 +1,5 @@
 //! The door: a scene in, a film out.
 
-use std::marker::PhantomData;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
 use std::time::{Duration, Instant};
@@ -11,7 +10,7 @@ use rayon::prelude::*;
 use super::run::{CHUNK, run_wave};
 use super::tile::{Rect, Sums, mean, pixels, tiles};
 use super::wave::{Frame, RayCounts, WaveSamples, Worker};
-use crate::accel::Traversal;
+use crate::accel::stream::RayStream;
 use crate::film::{Film, PixelSum, SampleSums};
 use crate::intersect::{Exact, Fast, Tier, TierName, Watertight};
 use crate::math::Real;
@@ -195,10 +194,9 @@ impl<'a, T: Tier> TileWorker<'a, T> {
         Self {
             worker: Worker {
                 frame,
-                traversal: Traversal::new(&scene.accel),
+                stream: RayStream::new(&scene.accel),
                 radiance: SampleSums::default(),
                 rays: RayCounts::default(),
-                tier: PhantomData,
             },
             arenas: (0..=depths).map(|_| Bump::new()).collect(),
             pixels: Vec::new(),

@@ -10,7 +10,6 @@ use super::queue::PathQueue;
 use super::scatter::scatter;
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
-use crate::accel::Hint;
 use crate::intersect::Tier;
 
 /// Most paths that go through a stage at once. Queues that grow beyond are cut, and what grows out of the first piece is
@@ -64,7 +63,8 @@ fn run_chunk<T: Tier>(
     let (arena, deeper) = arenas.split_first_mut().expect("an arena for every depth");
     arena.reset();
     let scene = worker.frame.scene;
-    let hits = extend(worker, paths, (first, n), Hint::Auto, arena);
+    let apex = if depth == 0 { worker.frame.apex } else { None };
+    let hits = extend(worker, paths, (first, n), apex, arena);
     background(worker, paths, first, &hits);
     let surfaces = SurfaceQueue::evaluate::<T::Wide>(scene, paths, first, &hits, arena);
     if scene.requirements.glow {

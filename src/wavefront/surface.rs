@@ -9,27 +9,27 @@ use crate::math::{Lane, Real, Transform, Vec3, WIDTH, eight, gamma_of, three};
 
 /// Hits as lanes.
 #[derive(Clone, Copy)]
-pub(super) struct HitLanes<L: Lane> {
-    pub(super) origin: Vec3<L>,
-    pub(super) direction: Vec3<L>,
-    pub(super) t: L,
-    pub(super) u: L,
-    pub(super) v: L,
+pub(crate) struct HitLanes<L: Lane> {
+    pub(crate) origin: Vec3<L>,
+    pub(crate) direction: Vec3<L>,
+    pub(crate) t: L,
+    pub(crate) u: L,
+    pub(crate) v: L,
     /// Rows among the columns of the kind.
-    pub(super) row: [u32; WIDTH],
+    pub(crate) row: [u32; WIDTH],
     /// Through which instance; 0 is none.
-    pub(super) instance: [u32; WIDTH],
+    pub(crate) instance: [u32; WIDTH],
 }
 
 /// Surfaces as lanes. Normals have length one and point outwards, as the primitive defines it.
 #[derive(Clone, Copy)]
-pub(super) struct SurfaceLanes<L> {
-    pub(super) point: Vec3<L>,
+pub(crate) struct SurfaceLanes<L> {
+    pub(crate) point: Vec3<L>,
     /// Bound on what each coordinate of `point` is off the surface.
-    pub(super) error: L,
-    pub(super) geometric_normal: Vec3<L>,
-    pub(super) shading_normal: Vec3<L>,
-    pub(super) uv: (L, L),
+    pub(crate) error: L,
+    pub(crate) geometric_normal: Vec3<L>,
+    pub(crate) shading_normal: Vec3<L>,
+    pub(crate) uv: (L, L),
 }
 
 /// Lanes of `f64`, which all of this is evaluated in.
@@ -70,7 +70,7 @@ impl<L: Lane> SurfaceLanes<L> {
 }
 
 /// The surfaces that rays met, all of one kind.
-pub(super) fn evaluate<L: Lane>(g: &Geometry, kind: PrimKind, hit: &HitLanes<L>) -> SurfaceLanes<L> {
+pub(crate) fn evaluate<L: Lane>(g: &Geometry, kind: PrimKind, hit: &HitLanes<L>) -> SurfaceLanes<L> {
     let hit = hit.widen();
     if g.instances.is_empty() || hit.instance == [0; WIDTH] {
         return SurfaceLanes::narrow(evaluate_local(g, kind, &hit));

@@ -6,27 +6,35 @@ use crate::film::PixelSum;
 pub(super) const TILE: u32 = 32;
 /// Pixels that share a packet: a block of this width and height.
 const BLOCK: [u32; 2] = [4, 2];
+/// Pixels that share a bundle.
+const BUNDLE: [u32; 2] = [8, 8];
 
 /// A rectangle of pixels: left, top, width, height.
 pub(super) type Rect = [u32; 4];
 
 /// The tiles that cover a rectangle, row by row.
-pub(super) fn tiles([x, y, width, height]: Rect) -> Vec<Rect> {
-    let steps = |from: u32, size: u32| (from..from + size).step_by(TILE as usize);
-    let tile = |tx: u32, ty: u32| [tx, ty, TILE.min(x + width - tx), TILE.min(y + height - ty)];
-    steps(y, height).flat_map(|ty| steps(x, width).map(move |tx| tile(tx, ty))).collect()
+pub(super) fn tiles(rect: Rect) -> Vec<Rect> {
+    parts(rect, [TILE; 2]).collect()
 }
 
-/// The pixels of a tile, block by block, so that eight neighbours in the list are neighbours in the picture.
-pub(super) fn pixels([x, y, width, height]: Rect, list: &mut Vec<[u32; 2]>) {
+/// The pixels of a tile, bundle by bundle and in it block by block, so that eight neighbours in the list are neighbours in
+/// the picture, and 64 too.
+pub(super) fn pixels(tile: Rect, list: &mut Vec<[u32; 2]>) {
     list.clear();
-    for by in (0..height).step_by(BLOCK[1] as usize) {
-        for bx in (0..width).step_by(BLOCK[0] as usize) {
-            for dy in by..(by + BLOCK[1]).min(height) {
-                list.extend((bx..(bx + BLOCK[0]).min(width)).map(|dx| [x + dx, y + dy]));
-            }
+    for bundle in parts(tile, BUNDLE) {
+        for [x, y, width, height] in parts(bundle, BLOCK) {
+            list.extend((y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y])));
         }
     }
+}
+
+/// The parts of at most this width and height that make up a rectangle, row by row.
+fn parts([x, y, width, height]: Rect, [w, h]: [u32; 2]) -> impl Iterator<Item = Rect> {
+    let (right, bottom) = (x + width, y + height);
+    let row = move |y: u32| {
+        (x..right).step_by(w as usize).map(move |x| [x, y, w.min(right - x), h.min(bottom - y)])
+    };
+    (y..bottom).step_by(h as usize).flat_map(row)
 }
 
 /// Sums of the pixels of a tile: three channels and the weight.

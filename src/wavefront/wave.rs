@@ -1,6 +1,6 @@
 //! What the stages of one worker share.
 
-use crate::accel::Traversal;
+use crate::accel::stream::{Apex, RayStream};
 use crate::film::SampleSums;
 use crate::intersect::Tier;
 use crate::math::{WIDTH, eight};
@@ -79,12 +79,19 @@ pub(super) struct Frame<'a> {
     pub(super) scene: &'a Scene,
     pub(super) sampler: Sampler,
     pub(super) filter: FilterSampler,
+    /// What camera rays have in common.
+    pub(super) apex: Option<Apex>,
 }
 
 impl<'a> Frame<'a> {
     pub(super) fn new(scene: &'a Scene) -> Self {
         let s = &scene.settings;
-        Self { scene, sampler: Sampler::new(s.sampler, s.spp, s.seed), filter: s.filter.sampler() }
+        Self {
+            scene,
+            sampler: Sampler::new(s.sampler, s.spp, s.seed),
+            filter: s.filter.sampler(),
+            apex: scene.camera.common_origin().map(Apex::Origin),
+        }
     }
     pub(super) fn path_needs(&self) -> PathNeeds {
         let r = &self.scene.requirements;
@@ -95,9 +102,8 @@ impl<'a> Frame<'a> {
 /// What a worker adds to while it goes through waves.
 pub(super) struct Worker<'a, T: Tier> {
     pub(super) frame: &'a Frame<'a>,
-    pub(super) traversal: Traversal<'a>,
+    pub(super) stream: RayStream<'a, T>,
     /// Radiance of each slot of the wave.
     pub(super) radiance: SampleSums,
     pub(super) rays: RayCounts,
-    pub(super) tier: std::marker::PhantomData<T>,
 }

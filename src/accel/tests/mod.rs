@@ -5,6 +5,7 @@ mod leaks;
 pub(super) mod rays;
 mod refit;
 mod scenes;
+mod streams;
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;

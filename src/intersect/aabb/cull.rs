@@ -32,14 +32,14 @@ impl<L: Lane> CullRay<L> {
         Self { reciprocal, near_offset: -(start + width), far_offset: width - start }
     }
 
-    /// Lane `i` in all lanes.
+    /// One ray in all lanes.
     #[inline(always)]
-    pub fn splat_lane(&self, i: usize) -> Self {
-        let splat = |v: Vec3<L>| Vec3::splat(v.get(i));
+    pub fn splat(one: &CullRay<L::Scalar>) -> Self {
+        let splat = |v: Vec3<L::Scalar>| Vec3::splat([v.x, v.y, v.z]);
         Self {
-            reciprocal: splat(self.reciprocal),
-            near_offset: splat(self.near_offset),
-            far_offset: splat(self.far_offset),
+            reciprocal: splat(one.reciprocal),
+            near_offset: splat(one.near_offset),
+            far_offset: splat(one.far_offset),
         }
     }
 

@@ -6,7 +6,7 @@
 //! **Source:** Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
 
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, fused_cross, fused_dot};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, fused_cross, fused_dot, three};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
@@ -32,5 +32,21 @@ impl TriangleTest for MollerTrumbore {
             return LaneHit::none();
         }
         LaneHit { mask, t: fused_dot(e2, q) * scale, u, v }
+    }
+
+    type OneRay<R: Real> = ();
+
+    #[inline(always)]
+    fn prepare_one<R: Real>(_: &RayLanes<R>) {}
+
+    #[inline(always)]
+    fn candidates<L: Lane>(ray: &RayLanes<L::Scalar>, _: &(), corners: &[[[f32; WIDTH]; 3]; 3]) -> u32 {
+        let corners = three(|v| Vec3::<L>::load_f32(&corners[v]));
+        Self::test(&RayLanes::splat(ray), &(), corners, L::zero()).mask.bits()
+    }
+
+    #[inline(always)]
+    fn test_candidate<R: Real>(ray: &RayLanes<R>, _: &(), vertices: [Vec3<R>; 3], limit: R) -> LaneHit<R> {
+        Self::test(ray, &(), vertices, limit)
     }
 }

@@ -14,7 +14,7 @@
 use super::{near, plane_coordinates};
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, three};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, three};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
@@ -88,32 +88,109 @@ impl TriangleTest for Woop {
 
     #[inline(always)]
     fn test<L: Lane>(ray: &RayLanes<L>, shear: &Shear<L>, v: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
-        let mask = inside_edges(ray, shear, v);
+        let mask = inside_edges(three(|k| shear.across(v[k] - ray.origin)));
         if !mask.any() {
             return LaneHit::none();
         }
-        let (lo, hi) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
-        let (first, last) = shear.own.interval(lo, hi);
-        let mask = mask & first.le(last) & ray.t_min.le(last) & first.le(limit);
-        if !mask.any() {
-            return LaneHit::none();
-        }
-        let (t, at_u, at_v) = refine(ray, v);
-        let hit = LaneHit { mask, t: t.clamp(first, last), u: at_u, v: at_v };
-        let doubtful = mask & !near::at_glance(ray, v, &hit, shear.own.magnitude(lo, hi));
-        if doubtful.any() {
-            return near::settle(ray, v, (first, last), hit, doubtful);
-        }
-        hit
+        within_own_box(mask, ray, &shear.own, v, limit)
+    }
+
+    type OneRay<R: Real> = OneShear<R>;
+
+    #[inline(always)]
+    fn prepare_one<R: Real>(ray: &RayLanes<R>) -> OneShear<R> {
+        OneShear::new(ray)
+    }
+
+    #[inline(always)]
+    fn candidates<L: Lane>(
+        _: &RayLanes<L::Scalar>,
+        shear: &OneShear<L::Scalar>,
+        corners: &[[[f32; WIDTH]; 3]; 3],
+    ) -> u32 {
+        inside_edges(three(|k| shear.across::<L>(&corners[k]))).bits()
+    }
+
+    #[inline(always)]
+    fn test_candidate<R: Real>(
+        ray: &RayLanes<R>,
+        shear: &OneShear<R>,
+        vertices: [Vec3<R>; 3],
+        limit: R,
+    ) -> LaneHit<R> {
+        within_own_box(true, ray, &shear.own, vertices, limit)
     }
 }
 
-/// Lanes whose rays pass on the same side of the three edges, or on one.
+/// [`Shear`] of one ray, with the axes as places in the columns of eight triangles: nothing to choose where rays of all
+/// directions follow each other.
+#[derive(Clone, Copy, Debug)]
+pub struct OneShear<R> {
+    /// Stored axes that stand for `x`, `y` and `z`.
+    axes: [u8; 3],
+    /// By the axes above.
+    origin: [R; 3],
+    shear: [R; 2],
+    own: OwnBox<R>,
+}
+
+/// Stored axes that stand for `x`, `y` and `z`, by the last of them.
+const AXES: [[u8; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+
+impl<R: Real> OneShear<R> {
+    /// The arithmetic of [`Shear::new`], without branches on the axis.
+    #[inline(always)]
+    fn new(ray: &RayLanes<R>) -> Self {
+        let size = ray.direction.abs();
+        let along_x = size.x.ge(size.y) & size.x.ge(size.z);
+        let along_y = !along_x & size.y.ge(size.z);
+        let z = if along_x { 0 } else { 2 - usize::from(along_y) };
+        let axes = AXES[z];
+        let of = |v: Vec3<R>| three(|k| [v.x, v.y, v.z][usize::from(axes[k])]);
+        let [x, y, z] = of(ray.direction);
+        Self {
+            axes,
+            origin: of(ray.origin),
+            shear: [x / z, y / z],
+            own: OwnBox::new(ray.origin, ray.direction),
+        }
+    }
+
+    /// The two coordinates across the ray of eight corners.
+    #[inline(always)]
+    fn across<L: Lane<Scalar = R>>(&self, corner: &[[f32; WIDTH]; 3]) -> (L, L) {
+        let [x, y, z] = three(|k| L::load_f32(&corner[usize::from(self.axes[k])]) - L::splat(self.origin[k]));
+        (x - L::splat(self.shear[0]) * z, y - L::splat(self.shear[1]) * z)
+    }
+}
+
+/// Of the lanes that passed the edges, those that meet the triangle's own box, with where at the triangle.
 #[inline(always)]
-fn inside_edges<L: Lane>(ray: &RayLanes<L>, shear: &Shear<L>, v: [Vec3<L>; 3]) -> L::Mask {
-    let (ax, ay) = shear.across(v[0] - ray.origin);
-    let (bx, by) = shear.across(v[1] - ray.origin);
-    let (cx, cy) = shear.across(v[2] - ray.origin);
+fn within_own_box<L: Lane>(
+    mask: L::Mask,
+    ray: &RayLanes<L>,
+    own: &OwnBox<L>,
+    v: [Vec3<L>; 3],
+    limit: L,
+) -> LaneHit<L> {
+    let (lo, hi) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
+    let (first, last) = own.interval(lo, hi);
+    let mask = mask & first.le(last) & ray.t_min.le(last) & first.le(limit);
+    if !mask.any() {
+        return LaneHit::none();
+    }
+    let (t, at_u, at_v) = refine(ray, v);
+    let hit = LaneHit { mask, t: t.clamp(first, last), u: at_u, v: at_v };
+    let doubtful = mask & !near::at_glance(ray, v, &hit, own.magnitude(lo, hi));
+    if doubtful.any() {
+        return near::settle(ray, v, (first, last), hit, doubtful);
+    }
+    hit
+}
+
+/// Lanes whose rays pass on the same side of the three edges, or on one; from the corners' coordinates across the ray.
+#[inline(always)]
+fn inside_edges<L: Lane>([(ax, ay), (bx, by), (cx, cy)]: [(L, L); 3]) -> L::Mask {
     let e0 = cx * by - cy * bx;
     let e1 = ax * cy - ay * cx;
     let e2 = bx * ay - by * ax;

@@ -1,0 +1,124 @@
+//! Rays and hits as columns: what streams of rays are asked from and answered to.
+
+use crate::accel::query::Closest;
+use crate::intersect::RayLanes;
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
+
+/// A bound of `t` that is the same for all rays, or a column of its own.
+#[derive(Clone, Copy, Debug)]
+pub enum Bound<'a, R> {
+    /// One for all.
+    All(R),
+    /// One a ray.
+    Each(&'a [R]),
+}
+
+impl<R: Real> Bound<'_, R> {
+    #[inline(always)]
+    fn load<L: Lane<Scalar = R>>(&self, at: usize) -> L {
+        match self {
+            Self::All(t) => L::splat(*t),
+            Self::Each(column) => L::load(&column[at..]),
+        }
+    }
+    #[inline(always)]
+    fn get(&self, row: usize) -> R {
+        match self {
+            Self::All(t) => *t,
+            Self::Each(column) => column[row],
+        }
+    }
+}
+
+/// Rays as columns.
+///
+/// **Shape:** columns hold at least `len` rows rounded up to the packet width; what stands in the rows beyond `len` is
+/// not asked. **Needs:** rays whose `t_max` is not minus infinity are finite and have a direction.
+#[derive(Clone, Copy, Debug)]
+pub struct RayColumns<'a, R> {
+    /// How many rays.
+    pub len: usize,
+    /// Where they start.
+    pub origin: [&'a [R]; 3],
+    /// Where they go; any length but zero.
+    pub direction: [&'a [R]; 3],
+    /// Hits at or before it do not count.
+    pub t_min: Bound<'a, R>,
+    /// Hits at or beyond it do not count; a ray with minus infinity is not asked.
+    pub t_max: Bound<'a, R>,
+}
+
+impl<R: Real> RayColumns<'_, R> {
+    /// Eight rays from row `at` on; those beyond the end are turned off.
+    #[inline(always)]
+    pub(super) fn load<L: Lane<Scalar = R>>(&self, at: usize) -> RayLanes<L> {
+        let axes =
+            |c: &[&[R]; 3]| Vec3::new(L::load(&c[0][at..]), L::load(&c[1][at..]), L::load(&c[2][at..]));
+        let t_max = self.t_max.load::<L>(at);
+        let t_max = match self.len - at {
+            count if count < WIDTH => {
+                L::select(L::Mask::from_bits((1 << count) - 1), t_max, L::constant(f64::NEG_INFINITY))
+            }
+            _ => t_max,
+        };
+        RayLanes {
+            origin: axes(&self.origin),
+            direction: axes(&self.direction),
+            t_min: self.t_min.load(at),
+            t_max,
+        }
+    }
+
+    /// The ray of a row.
+    #[inline(always)]
+    pub(super) fn get(&self, row: usize) -> RayLanes<R> {
+        let axes = |c: &[&[R]; 3]| Vec3::new(c[0][row], c[1][row], c[2][row]);
+        RayLanes {
+            origin: axes(&self.origin),
+            direction: axes(&self.direction),
+            t_min: self.t_min.get(row),
+            t_max: self.t_max.get(row),
+        }
+    }
+}
+
+/// Nearest hits as columns.
+///
+/// **Shape:** as [`RayColumns`]; `instance` may be empty where there are none. In a row whose `t` is still the ray's
+/// `t_max` nothing was hit, and the other columns mean nothing.
+#[derive(Debug)]
+pub struct HitColumns<'a, R> {
+    /// Distance in units of the direction's length.
+    pub t: &'a mut [R],
+    /// As in [`crate::intersect::Hit`].
+    pub u: &'a mut [R],
+    /// As in [`crate::intersect::Hit`].
+    pub v: &'a mut [R],
+    /// Which primitive.
+    pub prim: &'a mut [u32],
+    /// Through which instance; 0 is none.
+    pub instance: &'a mut [u32],
+}
+
+impl<R: Real> HitColumns<'_, R> {
+    /// Writes what eight rays from row `at` on found.
+    #[inline(always)]
+    pub(super) fn store<L: Lane<Scalar = R, Bits = wide::u32x8>>(&mut self, at: usize, found: &Closest<L>) {
+        found.t.store(&mut self.t[at..]);
+        found.u.store(&mut self.u[at..]);
+        found.v.store(&mut self.v[at..]);
+        self.prim[at..at + WIDTH].copy_from_slice(&found.prim.to_array());
+        if let Some(instance) = self.instance.get_mut(at..at + WIDTH) {
+            instance.copy_from_slice(&found.instance.to_array());
+        }
+    }
+
+    /// Writes what the ray of a row found.
+    #[inline(always)]
+    pub(super) fn store_one(&mut self, row: usize, found: &Closest<R>) {
+        (self.t[row], self.u[row], self.v[row], self.prim[row]) = (found.t, found.u, found.v, found.prim);
+        if let Some(instance) = self.instance.get_mut(row) {
+            *instance = found.instance;
+        }
+    }
+}

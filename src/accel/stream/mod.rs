@@ -1,0 +1,244 @@
+//! Many rays at a time: columns of rays in, columns of hits out, each ray by the way that suits it.
+//!
+//! 1. Rays with a common point, eight packets at a time: `bundle`, behind the pyramid of `frustum`.
+//! 2. Packets whose rays go into one octant: together, see [`super::packet`].
+//! 3. All others: one by one, many at a time.
+//!
+//! Which way a ray takes changes no result.
+
+mod bundle;
+mod columns;
+mod flight;
+mod frustum;
+
+use super::Accel;
+use super::leaf::TestRays;
+use super::query::{AnyHit, Closest, Query};
+use super::traversal::{Hint, Traversal, ask_planes};
+use crate::intersect::{RayLanes, Tier};
+use crate::math::WIDTH;
+use bundle::{Bundle, Stacks};
+use flight::Flight;
+use frustum::Frustum;
+
+pub use columns::{Bound, HitColumns, RayColumns};
+pub use frustum::Apex;
+
+/// Packets in a bundle.
+const BUNDLE: usize = WIDTH;
+
+/// Where the answers of a stream go.
+trait Answers<T: Tier> {
+    /// What packets ask.
+    type Query: Query<T::Wide> + Copy;
+    /// What single rays ask.
+    type One: Query<T::Real> + Copy;
+    /// The question of eight rays.
+    fn ask(rays: &RayLanes<T::Wide>) -> Self::Query;
+    /// The question of one.
+    fn ask_one(ray: &RayLanes<T::Real>) -> Self::One;
+    /// Writes the answers of eight rays from row `at` on.
+    fn store(&mut self, at: usize, query: &Self::Query);
+    /// Writes the answer of one.
+    fn store_one(&mut self, row: usize, query: &Self::One);
+    /// The scratch for these questions.
+    fn scratch(scratch: &mut Scratch<T>) -> &mut Asked<T, Self::Query, Self::One>;
+}
+
+impl<T: Tier> Answers<T> for HitColumns<'_, T::Real> {
+    type Query = Closest<T::Wide>;
+    type One = Closest<T::Real>;
+
+    #[inline(always)]
+    fn ask(rays: &RayLanes<T::Wide>) -> Self::Query {
+        Closest::new(rays.t_max)
+    }
+    #[inline(always)]
+    fn ask_one(ray: &RayLanes<T::Real>) -> Self::One {
+        Closest::new(ray.t_max)
+    }
+    #[inline(always)]
+    fn store(&mut self, at: usize, query: &Self::Query) {
+        HitColumns::store(self, at, query);
+    }
+    #[inline(always)]
+    fn store_one(&mut self, row: usize, query: &Self::One) {
+        HitColumns::store_one(self, row, query);
+    }
+    fn scratch(scratch: &mut Scratch<T>) -> &mut Asked<T, Self::Query, Self::One> {
+        &mut scratch.closest
+    }
+}
+
+/// Bit `i` of byte `k`: whether ray `8 k + i` hits anything.
+struct Occluded<'a>(&'a mut [u8]);
+
+impl<T: Tier> Answers<T> for Occluded<'_> {
+    type Query = AnyHit<T::Wide>;
+    type One = AnyHit<T::Real>;
+
+    #[inline(always)]
+    fn ask(rays: &RayLanes<T::Wide>) -> Self::Query {
+        AnyHit::new(rays.t_max)
+    }
+    #[inline(always)]
+    fn ask_one(ray: &RayLanes<T::Real>) -> Self::One {
+        AnyHit::new(ray.t_max)
+    }
+    #[inline(always)]
+    fn store(&mut self, at: usize, query: &Self::Query) {
+        self.0[at / WIDTH] = query.hits() as u8;
+    }
+    #[inline(always)]
+    fn store_one(&mut self, row: usize, query: &Self::One) {
+        let bit = 1 << (row % WIDTH);
+        let byte = &mut self.0[row / WIDTH];
+        *byte = if query.hits() != 0 { *byte | bit } else { *byte & !bit };
+    }
+    fn scratch(scratch: &mut Scratch<T>) -> &mut Asked<T, Self::Query, Self::One> {
+        &mut scratch.any
+    }
+}
+
+/// What is asked of a stream, by packets and by single rays.
+struct Asked<T: Tier, Q, O> {
+    queries: Vec<Q>,
+    flight: Flight<T, O>,
+}
+
+impl<T: Tier, Q, O: Query<T::Real> + Copy> Asked<T, Q, O> {
+    fn new(accel: &Accel) -> Self {
+        Self { queries: Vec::with_capacity(BUNDLE), flight: Flight::new(accel) }
+    }
+}
+
+/// Room for each of the questions.
+struct Scratch<T: Tier> {
+    closest: Asked<T, Closest<T::Wide>, Closest<T::Real>>,
+    any: Asked<T, AnyHit<T::Wide>, AnyHit<T::Real>>,
+}
+
+/// Streams of rays into a tree, with the scratch of one worker.
+pub struct RayStream<'a, T: Tier> {
+    bundles: Bundles<'a, T>,
+    scratch: Scratch<T>,
+    /// Rows of rays that go alone.
+    alone: Vec<u32>,
+}
+
+impl<'a, T: Tier> RayStream<'a, T> {
+    /// Scratch for a tree.
+    pub fn new(accel: &'a Accel) -> Self {
+        Self {
+            bundles: Bundles::new(accel),
+            scratch: Scratch { closest: Asked::new(accel), any: Asked::new(accel) },
+            alone: Vec::new(),
+        }
+    }
+
+    /// The nearest hit of each ray; a row whose `t` is still the ray's `t_max` has none.
+    pub fn closest(
+        &mut self,
+        rays: &RayColumns<T::Real>,
+        apex: Option<Apex>,
+        hint: Hint,
+        hits: &mut HitColumns<T::Real>,
+    ) {
+        self.trace(rays, apex, hint, hits);
+    }
+
+    /// Whether each ray hits anything: bit `i` of byte `k` for ray `8 k + i`.
+    pub fn any(&mut self, rays: &RayColumns<T::Real>, apex: Option<Apex>, hint: Hint, occluded: &mut [u8]) {
+        self.trace(rays, apex, hint, &mut Occluded(occluded));
+    }
+
+    fn trace<A: Answers<T>>(
+        &mut self,
+        rays: &RayColumns<T::Real>,
+        apex: Option<Apex>,
+        hint: Hint,
+        answers: &mut A,
+    ) {
+        let asked = A::scratch(&mut self.scratch);
+        self.alone.clear();
+        for first in (0..rays.len).step_by(BUNDLE * WIDTH) {
+            self.bundles.trace(rays, first, (apex, hint), &mut asked.queries, answers, &mut self.alone);
+        }
+        if !self.alone.is_empty() {
+            asked.flight.trace(self.bundles.accel, rays, &self.alone, answers);
+        }
+    }
+}
+
+/// Packets, up to eight of them at a time.
+struct Bundles<'a, T: Tier> {
+    accel: &'a Accel,
+    traversal: Traversal<'a>,
+    rays: Vec<RayLanes<T::Wide>>,
+    prepared: Box<[Option<TestRays<T>>; BUNDLE]>,
+}
+
+impl<'a, T: Tier> Bundles<'a, T> {
+    fn new(accel: &'a Accel) -> Self {
+        Self {
+            accel,
+            traversal: Traversal::new(accel),
+            rays: Vec::with_capacity(BUNDLE),
+            prepared: Box::new([const { None }; BUNDLE]),
+        }
+    }
+
+    /// Answers the packets from row `first` on, or notes the rows of rays that had better go alone.
+    fn trace<A: Answers<T>>(
+        &mut self,
+        rays: &RayColumns<T::Real>,
+        first: usize,
+        (apex, hint): (Option<Apex>, Hint),
+        queries: &mut Vec<A::Query>,
+        answers: &mut A,
+        alone: &mut Vec<u32>,
+    ) {
+        let end = rays.len.min(first + BUNDLE * WIDTH);
+        self.rays.clear();
+        queries.clear();
+        for at in (first..end).step_by(WIDTH) {
+            let rays = rays.load::<T::Wide>(at);
+            let mut query = A::ask(&rays);
+            ask_planes(self.accel, &rays, &mut query);
+            self.rays.push(rays);
+            queries.push(query);
+        }
+        let whole = apex.is_some_and(|apex| self.trace_bundle(apex, queries));
+        for (j, at) in (first..end).step_by(WIDTH).enumerate() {
+            if whole || self.trace_packet(j, hint, &mut queries[j]) {
+                answers.store(at, &queries[j]);
+            } else {
+                alone.extend(at as u32..end.min(at + WIDTH) as u32);
+            }
+        }
+    }
+
+    /// False if the rays of a packet had better go alone.
+    fn trace_packet<Q: Query<T::Wide>>(&mut self, j: usize, hint: Hint, query: &mut Q) -> bool {
+        if self.accel.instances.is_empty() && !self.traversal.together::<T>(&self.rays[j], hint) {
+            return false;
+        }
+        self.traversal.ask_tree::<T, _>(&self.rays[j], hint, query);
+        true
+    }
+
+    /// False if the packets do not make a bundle, or not a good one.
+    fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> bool {
+        let world = self.accel.world;
+        let Some(mut frustum) = Frustum::around::<T>(&self.rays, apex, world.scale) else { return false };
+        for (j, query) in queries.iter().enumerate() {
+            frustum.look(j, T::above_f32(query.limit()));
+        }
+        frustum.update_reach();
+        self.prepared.fill(None);
+        let stacks =
+            Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
+        Bundle { frustum, rays: &self.rays, prepared: &mut self.prepared, queries }
+            .descend(self.accel, world.node, stacks)
+    }
+}

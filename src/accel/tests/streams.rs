@@ -1,0 +1,148 @@
+//! Streams of rays against the plain loop, whatever they are told that the rays have in common.
+
+use proptest::prelude::*;
+
+use super::scenes::{World, world};
+use super::{Bits, bits, lanes, plainly, rays};
+use crate::accel::stream::{Apex, Bound, HitColumns, RayColumns, RayStream};
+use crate::accel::{Accel, Hint};
+use crate::geometry::Geometry;
+use crate::intersect::testing::dice::Dice;
+use crate::intersect::{Exact, Ray, RayLanes, Tier, Watertight};
+use crate::math::{Lane, WIDTH};
+
+/// Rays of a tier by columns, padded.
+#[derive(Default)]
+struct Columns<R> {
+    origin: [Vec<R>; 3],
+    direction: [Vec<R>; 3],
+    t: [Vec<R>; 2],
+    rays: Vec<RayLanes<R>>,
+}
+
+impl<R: crate::math::Real> Columns<R> {
+    /// Eight at a time, as the ray scene makes lanes of them: unusable rays are turned off.
+    fn of<T: Tier<Real = R>>(asked: &[Ray]) -> Self {
+        let mut columns = Self::default();
+        for packet in asked.chunks(WIDTH) {
+            let Some(lanes) = lanes::<T>(packet) else { continue };
+            for i in 0..WIDTH {
+                columns.push(lanes.get(i));
+            }
+        }
+        columns
+    }
+
+    fn push(&mut self, ray: RayLanes<R>) {
+        let (o, d) = (ray.origin.get(0), ray.direction.get(0));
+        for k in 0..3 {
+            self.origin[k].push(o[k]);
+            self.direction[k].push(d[k]);
+        }
+        self.t[0].push(ray.t_min);
+        self.t[1].push(ray.t_max);
+        self.rays.push(ray);
+    }
+
+    fn columns(&self, len: usize) -> RayColumns<'_, R> {
+        RayColumns {
+            len,
+            origin: self.origin.each_ref().map(|c| &c[..]),
+            direction: self.direction.each_ref().map(|c| &c[..]),
+            t_min: Bound::Each(&self.t[0]),
+            t_max: Bound::Each(&self.t[1]),
+        }
+    }
+}
+
+/// What a stream finds for the first `len` rays, and whether it finds anything.
+fn found<T: Tier>(
+    stream: &mut RayStream<T>,
+    rays: &Columns<T::Real>,
+    len: usize,
+    (apex, hint): (Option<Apex>, Hint),
+) -> (Vec<Option<Bits>>, Vec<bool>) {
+    let (columns, n) = (rays.columns(len), rays.rays.len());
+    let real = || vec![<T::Real as Lane>::constant(-1.0); n];
+    let (mut t, mut u, mut v) = (real(), real(), real());
+    let (mut prim, mut instance, mut occluded) = (vec![0; n], vec![0; n], vec![0xaa; n / WIDTH]);
+    let mut hits = HitColumns { t: &mut t, u: &mut u, v: &mut v, prim: &mut prim, instance: &mut instance };
+    stream.closest(&columns, apex, hint, &mut hits);
+    stream.any(&columns, apex, hint, &mut occluded);
+    let hit = |i: usize| (bits(t[i]), bits(u[i]), bits(v[i]), prim[i], instance[i]);
+    let hits = (0..len).map(|i| (t[i] < rays.rays[i].t_max).then(|| hit(i))).collect();
+    (hits, (0..len).map(|i| occluded[i / WIDTH] >> (i % WIDTH) & 1 != 0).collect())
+}
+
+/// Asks in every way; gives how many rays hit.
+fn check<T: Tier>(geometry: &Geometry, accel: &Accel, asked: &[Ray], apex: Option<Apex>) -> usize {
+    let rays = Columns::<T::Real>::of::<T>(asked);
+    let expected: Vec<_> = rays.rays.iter().map(|ray| plainly::<T>(geometry, ray)).collect();
+    let mut stream = RayStream::<T>::new(accel);
+    for len in [rays.rays.len(), rays.rays.len().saturating_sub(3)] {
+        for hint in [Hint::Auto, Hint::Coherent, Hint::Incoherent] {
+            let (hits, any) = found(&mut stream, &rays, len, (apex, hint));
+            assert_eq!(hits, expected[..len], "{:?} {hint:?} {apex:?}", T::NAME);
+            assert!(any.iter().zip(&hits).all(|(any, hit)| *any == hit.is_some()), "any, {hint:?} {apex:?}");
+        }
+    }
+    expected.iter().flatten().count()
+}
+
+/// Rays with a common origin or target, near each other more often than not, and many of them through landmarks.
+fn with_apex(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> (Vec<Ray>, Apex) {
+    let near = |at: [f32; 3], by: f64, dice: &mut Dice| -> [f32; 3] {
+        let offset = dice.point();
+        std::array::from_fn(|k| at[k] + (by * offset[k]) as f32)
+    };
+    let pick = |dice: &mut Dice| match landmarks.len() {
+        0 => dice.point().map(|x| x as f32),
+        n => landmarks[dice.below(n)],
+    };
+    let apex = match dice.below(3) {
+        0 => pick(dice),
+        1 => dice.point().map(|x| x as f32 * 1e3),
+        _ => dice.point().map(|x| x as f32 * 8.0),
+    };
+    let (middle, spread) = (pick(dice), [0.0, 0.05, 0.5, 3.0][dice.below(4)]);
+    let is_target = dice.below(2) == 0;
+    let ray = |dice: &mut Dice| {
+        let end = if dice.below(4) == 0 { pick(dice) } else { near(middle, spread, dice) };
+        let (from, to) = if is_target { (end, apex) } else { (apex, end) };
+        let towards = Ray::new(from, std::array::from_fn(|k| to[k] - from[k]));
+        match dice.below(12) {
+            0 => Ray { t_min: dice.between(-0.5, 0.5) as f32, ..towards },
+            1 => Ray { t_max: dice.between(0.0, 1.0) as f32, ..towards },
+            2 => Ray { t_max: f32::NEG_INFINITY, ..towards },
+            _ if is_target => Ray { t_max: 1.0, ..towards },
+            _ => towards,
+        }
+    };
+    let rays = (0..count).map(|_| ray(dice)).collect();
+    (rays, if is_target { Apex::Target(apex) } else { Apex::Origin(apex) })
+}
+
+fn check_world<T: Tier>(world: &World, seed: u64) -> usize {
+    let (geometry, dice) = (world.geometry(), &mut Dice(seed));
+    let accel = Accel::build(&geometry);
+    let mut hits = check::<T>(&geometry, &accel, &rays::around(&world.landmarks(), dice, 200), None);
+    for _ in 0..4 {
+        let (rays, apex) = with_apex(&world.landmarks(), dice, 136);
+        hits += check::<T>(&geometry, &accel, &rays, Some(apex));
+    }
+    hits
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(160))]
+
+    #[test]
+    fn watertight_streams_equal_brute_force(world in world(200), seed: u64) {
+        check_world::<Watertight>(&world, seed);
+    }
+
+    #[test]
+    fn exact_streams_equal_brute_force(world in world(200), seed: u64) {
+        check_world::<Exact>(&world, seed);
+    }
+}

@@ -1,0 +1,159 @@
+//! The one room with unchecked access: what the loops over many rays load and store.
+//!
+//! Every index here comes out of a tree that [`super::build`] made and `validate` describes: a reference leads to a node
+//! or block that is there, and no stack grows beyond the bound that the depth of the tree sets. Debug builds check
+//! each of them.
+#![allow(unsafe_code)]
+
+use wide::{f32x8, u32x8};
+
+use super::Accel;
+use super::block::TriangleBlock;
+use super::node::{ChildRef, Node8};
+use super::order::ascending;
+use crate::math::{Lane, Mask, WIDTH};
+
+/// The node that a reference leads to.
+#[inline(always)]
+pub(super) fn node(accel: &Accel, child: ChildRef) -> &Node8 {
+    let index = child.index() as usize;
+    debug_assert!(child.is_node() && index < accel.nodes.len());
+    // SAFETY: references to nodes hold indices of nodes that were built, see the module.
+    unsafe { accel.nodes.get_unchecked(index) }
+}
+
+/// The block of triangles that a reference leads to.
+#[inline(always)]
+pub(super) fn triangles(accel: &Accel, child: ChildRef) -> &TriangleBlock {
+    let index = child.index() as usize;
+    debug_assert!(index < accel.triangles.len());
+    // SAFETY: references to leaves hold indices of blocks that were packed, see the module.
+    unsafe { accel.triangles.get_unchecked(index) }
+}
+
+/// Asks for the memory that a reference leads to, so that it is there when it is visited.
+#[inline(always)]
+pub(super) fn prefetch(accel: &Accel, child: ChildRef) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let index = child.index() as usize;
+        let nodes = accel.nodes.as_ptr().cast::<i8>().wrapping_add(index * size_of::<Node8>());
+        let blocks = accel.triangles.as_ptr().cast::<i8>().wrapping_add(index * size_of::<TriangleBlock>());
+        let first = if child.is_node() { nodes } else { blocks };
+        for line in 0..5 {
+            // SAFETY: a prefetch reads nothing that the program sees, and faults at no address.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(64 * line)) };
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (accel, child);
+}
+
+/// Stacks of many rays: references and where the ray enters them, the next to visit last.
+#[derive(Debug)]
+pub(super) struct Stacks {
+    child: Vec<u32>,
+    near: Vec<f32>,
+    stride: usize,
+}
+
+impl Stacks {
+    /// What stands at the bottom of every stack.
+    pub(super) const END: ChildRef = ChildRef::from_bits(7 << 29);
+
+    /// Stacks of up to `bound` entries.
+    pub(super) fn new(count: usize, bound: usize) -> Self {
+        // Eight entries are written at a time; an odd number of cache lines keeps the stacks in different cache sets.
+        let stride = (bound + 2 * WIDTH).next_multiple_of(16) | 16;
+        Self { child: vec![Self::END.bits(); count * stride], near: vec![0.0; count * stride], stride }
+    }
+
+    /// Writes eight entries to a stack from `top` on.
+    #[inline(always)]
+    pub(super) fn write(&mut self, stack: usize, top: usize, child: u32x8, near: f32x8) {
+        let at = stack * self.stride + top;
+        debug_assert!(top + WIDTH <= self.stride && at + WIDTH <= self.child.len());
+        // SAFETY: `stack` is one of those made, and the depth of the tree bounds `top`, see the module.
+        unsafe {
+            *self.child.as_mut_ptr().add(at).cast::<[u32; WIDTH]>() = child.to_array();
+            *self.near.as_mut_ptr().add(at).cast::<[f32; WIDTH]>() = near.to_array();
+        }
+    }
+
+    /// The reference at a place of a stack.
+    #[inline(always)]
+    pub(super) fn child(&self, stack: usize, place: usize) -> ChildRef {
+        let at = stack * self.stride + place;
+        debug_assert!(place < self.stride && at < self.child.len());
+        // SAFETY: as above.
+        ChildRef::from_bits(unsafe { *self.child.get_unchecked(at) })
+    }
+
+    /// Keeps those of the entries from the first to before `top` that the ray enters within its limit; gives the new top.
+    #[inline(always)]
+    pub(super) fn keep_within(&mut self, stack: usize, top: usize, limit: f32) -> usize {
+        let limit = f32x8::splat(limit);
+        let mut kept = 1;
+        for place in (1..top).step_by(WIDTH) {
+            let (child, near) = self.read(stack, place);
+            let inside = Lane::le(near, limit).bits() & first_lanes(top - place);
+            let order = ascending(inside);
+            self.write(stack, kept, child.shuffle_wrapping(order), near.shuffle_wrapping(order));
+            kept += inside.count_ones() as usize;
+        }
+        kept
+    }
+
+    /// Eight entries of a stack from `place` on.
+    #[inline(always)]
+    fn read(&self, stack: usize, place: usize) -> (u32x8, f32x8) {
+        let at = stack * self.stride + place;
+        debug_assert!(place + WIDTH <= self.stride && at + WIDTH <= self.child.len());
+        // SAFETY: as for writing: what is on a stack lies within it, and eight more entries do.
+        unsafe {
+            let child = *self.child.as_ptr().add(at).cast::<[u32; WIDTH]>();
+            let near = *self.near.as_ptr().add(at).cast::<[f32; WIDTH]>();
+            (u32x8::new(child), f32x8::new(near))
+        }
+    }
+}
+
+/// Bits of the first `count` lanes, of all eight if there are more.
+#[inline(always)]
+fn first_lanes(count: usize) -> u32 {
+    if count < WIDTH { (1 << count) - 1 } else { 0xff }
+}
+
+/// A list of slots with room for all of them.
+#[derive(Debug)]
+pub(super) struct Slots<const N: usize> {
+    place: [u32; N],
+    len: usize,
+}
+
+impl<const N: usize> Slots<N> {
+    pub(super) fn new() -> Self {
+        Self { place: [0; N], len: 0 }
+    }
+    #[inline(always)]
+    pub(super) fn len(&self) -> usize {
+        self.len
+    }
+    #[inline(always)]
+    pub(super) fn clear(&mut self) {
+        self.len = 0;
+    }
+    #[inline(always)]
+    pub(super) fn get(&self, i: usize) -> usize {
+        self.place[i] as usize
+    }
+    /// Appends a slot if it is wanted, without a branch. **Needs:** fewer than `N` slots in the list.
+    #[inline(always)]
+    pub(super) fn push_if(&mut self, wanted: bool, slot: usize) {
+        debug_assert!(self.len < N);
+        // SAFETY: there are fewer slots than `N`, and each stands in one list at most.
+        unsafe { *self.place.get_unchecked_mut(self.len) = slot as u32 };
+        self.len += usize::from(wanted);
+    }
+}

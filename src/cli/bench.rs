@@ -1,0 +1,244 @@
+//! `octray bench`: rays a second of scenes, here and in other ray tracers.
+
+use std::path::PathBuf;
+
+use clap::ValueHint;
+use clap::builder::{PossibleValuesParser, TypedValueParser};
+use rayon::ThreadPool;
+
+use super::args::{Tier, parse_size};
+use super::error::{CliError, Exit};
+use super::source::SceneSource;
+use super::stdio::{print, say};
+use super::{pipeline, simd};
+use crate::intersect::TierName;
+use crate::measure::bench::{
+    Baseline, BaselineError, Class, Counters, Options, PeerScene, Report, SceneReport, Settings, Subject,
+    View, bench_scene, box_tests_a_second, comparison_table, table,
+};
+use crate::output;
+
+/// What is measured when no scene is named.
+const SCENES: [&str; 3] = ["terrain:200000", "instances", "spheres"];
+
+/// Other ray tracers.
+const PEERS: [&str; 3] = ["embree", "obvhs", "bvh"];
+
+/// Arguments of `octray bench`.
+#[derive(Debug, clap::Args)]
+pub struct BenchArgs {
+    /// Scenes as `octray render` takes them; with @scene, @outside or @inside at the end to choose the view of one
+    /// [default: terrain:200000 instances spheres]
+    #[arg(value_name = "SCENE", value_hint = ValueHint::FilePath)]
+    pub scenes: Vec<String>,
+    /// Classes of rays, separated by commas
+    #[arg(long, value_name = "CLASS", value_delimiter = ',', default_values = Class::NAMES,
+          value_parser = PossibleValuesParser::new(Class::NAMES).try_map(|name| name.parse::<Class>()))]
+    pub classes: Vec<Class>,
+    /// How exactly rays are intersected
+    #[arg(long, default_value = "watertight")]
+    pub tier: Tier,
+    /// Threads that ask rays; 0 for all that this process may use
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=4096))]
+    pub threads: u16,
+    /// Width and height in pixels of the picture that camera rays sample
+    #[arg(long, value_name = "WxH", default_value = "1024x1024", value_parser = parse_size)]
+    pub size: [u32; 2],
+    /// How often each engine is timed
+    #[arg(long, value_name = "N", default_value_t = 5, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub runs: u16,
+    /// Where camera rays start: at the scene's camera, outside the bounds, or in their middle along the longest axis
+    /// [default: outside for meshes, scene for the rest]
+    #[arg(long, value_name = "VIEW",
+          value_parser = PossibleValuesParser::new(View::NAMES).try_map(|name| name.parse::<View>()))]
+    pub view: Option<View>,
+    /// Write everything that was measured to this file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub json: Option<PathBuf>,
+    /// Compare with a file that --json wrote; exit 4 if a class of rays became slower by more than the noise
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub baseline: Option<PathBuf>,
+    /// Time other ray tracers too, on the same rays: all that there are, or those after an equals sign
+    #[arg(long, value_name = "NAME", num_args = 0.., require_equals = true, value_delimiter = ',',
+          default_missing_values = PEERS, value_parser = PossibleValuesParser::new(PEERS))]
+    pub peers: Vec<String>,
+    /// Embree 4: its library, or a folder that holds it [default: the variable OCTRAY_EMBREE]
+    #[arg(long, value_name = "PATH", requires = "peers", value_hint = ValueHint::AnyPath)]
+    pub embree: Option<PathBuf>,
+}
+
+/// Measures as `args` say.
+pub fn run(args: &BenchArgs) -> Result<(), CliError> {
+    if let Some(path) = &args.json {
+        output::check_writable(path)?;
+    }
+    let baseline = args.baseline.as_deref().map(Baseline::read).transpose().map_err(unusable)?;
+    let pool = pool(usize::from(args.threads))?;
+    let peers = Peers::open(args)?;
+    announce(&pool);
+    let report = measure(args, &pool, &peers)?;
+    print(table(&report).as_bytes())?;
+    if let Some(path) = &args.json {
+        output::write_atomically(path, to_json(&report)?.as_bytes())?;
+    }
+    baseline.map_or(Ok(()), |baseline| compare(&baseline, &report))
+}
+
+fn pool(threads: usize) -> Result<ThreadPool, CliError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| CliError::new(Exit::Failed, "worker threads cannot be started").because(error))
+}
+
+/// What readers of the numbers should know about this machine.
+fn announce(pool: &ThreadPool) {
+    if let Some(advice) = simd::advice(simd::BUILT_FOR, simd::offered()) {
+        say(&format!("warning: {advice}"));
+    }
+    if pool.current_num_threads() > 1 {
+        say("several threads: rates are by wall time, and nothing is read from hardware counters");
+    } else if let Err(reason) = Counters::open() {
+        say(&reason);
+    }
+}
+
+fn measure(args: &BenchArgs, pool: &ThreadPool, peers: &Peers) -> Result<Report, CliError> {
+    let options = Options {
+        classes: args.classes.clone(),
+        tier: tier_name(args.tier),
+        size: args.size,
+        runs: usize::from(args.runs),
+        peak_box_tests_s: pool.install(box_tests_a_second),
+    };
+    let scenes = match args.scenes.is_empty() {
+        true => SCENES.map(String::from).to_vec(),
+        false => args.scenes.clone(),
+    };
+    let scenes: Result<_, CliError> =
+        scenes.iter().map(|text| scene(text, args.view, &options, pool, peers)).collect();
+    Ok(Report {
+        octray: simd::VERSION.into(),
+        settings: Settings {
+            tier: options.tier.name().into(),
+            threads: pool.current_num_threads(),
+            size: options.size,
+            runs: options.runs,
+        },
+        peak_box_tests_s: options.peak_box_tests_s,
+        scenes: scenes?,
+    })
+}
+
+fn scene(
+    text: &str,
+    view: Option<View>,
+    options: &Options,
+    pool: &ThreadPool,
+    peers: &Peers,
+) -> Result<SceneReport, CliError> {
+    let (name, own_view) = view_of(text);
+    let Ok(source) = SceneSource::parse(name);
+    let usual = if pipeline::is_mesh(&source) { View::Outside } else { View::Scene };
+    let view = own_view.or(view).unwrap_or(usual);
+    say(&format!("{source}: loading"));
+    let compiled = pool.install(|| pipeline::open_bare(&source, options.size))?;
+    let stem = source.stem();
+    let subject = pool.install(|| Subject::new(stem, compiled, view)).ok_or_else(|| {
+        CliError::new(Exit::Scene, format!("{source}: nothing to measure: there is nothing but planes"))
+    })?;
+    let peer_scenes = peers.scenes(&subject, options.tier, pool.current_num_threads());
+    bench_scene(&subject, &peer_scenes, options, pool, &say)
+        .map_err(|error| CliError::of(Exit::Failed, error))
+}
+
+/// `sponza.obj@inside` is `sponza.obj` seen from inside.
+fn view_of(text: &str) -> (&str, Option<View>) {
+    let marked = text.rsplit_once('@').and_then(|(name, view)| Some((name, Some(view.parse().ok()?))));
+    marked.unwrap_or((text, None))
+}
+
+fn tier_name(tier: Tier) -> TierName {
+    match tier {
+        Tier::Fast => TierName::Fast,
+        Tier::Watertight => TierName::Watertight,
+        Tier::Exact => TierName::Exact,
+    }
+}
+
+fn to_json(report: &Report) -> Result<String, CliError> {
+    serde_json::to_string_pretty(report)
+        .map(|text| text + "\n")
+        .map_err(|error| CliError::new(Exit::Failed, "cannot write the report").because(error))
+}
+
+fn compare(baseline: &Baseline, report: &Report) -> Result<(), CliError> {
+    let comparisons = baseline.compare(report).map_err(unusable)?;
+    print(format!("\n{}", comparison_table(&comparisons)).as_bytes())?;
+    match comparisons.iter().filter(|c| c.is_regression()).count() {
+        0 => Ok(()),
+        slower => {
+            let text = format!("{slower} of {} classes of rays became slower", comparisons.len());
+            Err(CliError::new(Exit::Regression, text))
+        }
+    }
+}
+
+fn unusable(error: BaselineError) -> CliError {
+    let exit = match error {
+        BaselineError::Read { .. } => Exit::Failed,
+        BaselineError::Malformed { .. } => Exit::Scene,
+        _ => Exit::Usage,
+    };
+    CliError::of(exit, error)
+}
+
+/// The other ray tracers, if any were asked for.
+#[cfg(feature = "peers")]
+struct Peers(Option<crate::measure::peers::Peers>);
+
+#[cfg(feature = "peers")]
+impl Peers {
+    fn open(args: &BenchArgs) -> Result<Self, CliError> {
+        if args.peers.is_empty() {
+            return Ok(Self(None));
+        }
+        let path = args.embree.clone().or_else(|| std::env::var_os("OCTRAY_EMBREE").map(PathBuf::from));
+        let is_wanted = args.peers.iter().any(|name| name == PEERS[0]);
+        if is_wanted && path.is_none() {
+            say(
+                "without Embree: name its library or its folder by --embree or by the variable OCTRAY_EMBREE",
+            );
+        }
+        let peers = crate::measure::peers::Peers::open(path.as_deref().filter(|_| is_wanted), &args.peers);
+        peers.map(|peers| Self(Some(peers))).map_err(|error| CliError::of(Exit::Failed, error))
+    }
+    fn scenes(&self, subject: &Subject, tier: TierName, threads: usize) -> Vec<PeerScene> {
+        self.0.as_ref().map_or(Vec::new(), |peers| peers.scenes(subject, tier, threads, &say))
+    }
+}
+
+/// No other ray tracers in this build.
+#[cfg(not(feature = "peers"))]
+struct Peers;
+
+#[cfg(not(feature = "peers"))]
+impl Peers {
+    fn open(args: &BenchArgs) -> Result<Self, CliError> {
+        let missing = "this octray was built without other ray tracers: build it with --features peers";
+        if !args.peers.is_empty() { Err(CliError::new(Exit::Usage, missing)) } else { Ok(Self) }
+    }
+    fn scenes(&self, _: &Subject, _: TierName, _: usize) -> Vec<PeerScene> {
+        Vec::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_view_stands_behind_the_scene() {
+        assert_eq!(view_of("a/sponza.obj@inside"), ("a/sponza.obj", Some(View::Inside)));
+        assert_eq!(view_of("seed"), ("seed", None));
+        assert_eq!(view_of("me@home.obj"), ("me@home.obj", None));
+    }
+}

@@ -1,0 +1,189 @@
+//! octray as an engine: the one place where the bench calls the tree.
+
+use std::marker::PhantomData;
+
+use super::engine::Engine;
+use super::rays::{HitColumns, NO_HIT, RayColumns};
+use crate::accel::stream::{self, Bound, RayStream};
+use crate::accel::{Accel, Hint, Traversal};
+use crate::intersect::{RayLanes, Tier};
+use crate::math::{BitLane, Lane, Real, Vec3, WIDTH};
+
+/// A tree, asked in a tier.
+#[derive(Clone, Copy, Debug)]
+pub struct Octray<'a, T> {
+    accel: &'a Accel,
+    hint: Hint,
+    tier: PhantomData<T>,
+}
+
+impl<'a, T: Tier> Octray<'a, T> {
+    /// As the renderer asks: rays tell by themselves how they lie to each other.
+    pub fn new(accel: &'a Accel) -> Self {
+        Self { accel, hint: Hint::Auto, tier: PhantomData }
+    }
+    /// The plain traversal: each ray alone.
+    pub fn plain(accel: &'a Accel) -> Self {
+        Self { accel, hint: Hint::Incoherent, tier: PhantomData }
+    }
+
+    /// Eight rays from `first` on. Lanes beyond the end repeat the last ray but ask nothing.
+    #[inline(always)]
+    pub(super) fn packet(rays: &RayColumns<'_>, first: usize) -> RayLanes<T::Wide> {
+        let load = |column: &[f32]| T::Wide::load_f32(&RayColumns::eight(column, first));
+        let vector = |[x, y, z]: [&[f32]; 3]| Vec3 { x: load(x), y: load(y), z: load(z) };
+        let mut packet = RayLanes {
+            origin: vector(rays.origin),
+            direction: vector(rays.direction),
+            t_min: load(rays.t_min),
+            t_max: load(rays.t_max),
+        };
+        let left = rays.len() - first;
+        if left < WIDTH {
+            let t_max = |i| if i < left { rays.t_max[first + i] } else { f32::NEG_INFINITY };
+            packet.t_max = T::Wide::load_f32(&std::array::from_fn(t_max));
+        }
+        packet
+    }
+}
+
+/// Rays that a worker of the renderer takes at a time.
+const WAVE: usize = 1024;
+
+/// Columns of a wave in the number type of a tier.
+struct Wave<R> {
+    origin: [Vec<R>; 3],
+    direction: [Vec<R>; 3],
+    t_min: Vec<R>,
+    t_max: Vec<R>,
+    t: Vec<R>,
+    u: Vec<R>,
+    v: Vec<R>,
+    prim: Vec<u32>,
+}
+
+impl<R: Real> Wave<R> {
+    fn new() -> Self {
+        let column = || vec![R::default(); WAVE];
+        let three = || [column(), column(), column()];
+        Self {
+            origin: three(),
+            direction: three(),
+            t_min: column(),
+            t_max: column(),
+            t: column(),
+            u: column(),
+            v: column(),
+            prim: vec![0; WAVE],
+        }
+    }
+
+    fn load(&mut self, rays: &RayColumns<'_>, first: usize) -> usize {
+        let len = WAVE.min(rays.len() - first);
+        let copy = |to: &mut [R], from: &[f32]| {
+            for (to, from) in to.iter_mut().zip(&from[first..first + len]) {
+                *to = R::from_f32(*from);
+            }
+        };
+        for k in 0..3 {
+            copy(&mut self.origin[k], rays.origin[k]);
+            copy(&mut self.direction[k], rays.direction[k]);
+        }
+        copy(&mut self.t_min, rays.t_min);
+        copy(&mut self.t_max, rays.t_max);
+        len
+    }
+
+    /// The rays, and room for their hits.
+    fn split(&mut self, len: usize) -> (stream::RayColumns<'_, R>, stream::HitColumns<'_, R>) {
+        let rays = stream::RayColumns {
+            len,
+            origin: self.origin.each_ref().map(|c| &c[..]),
+            direction: self.direction.each_ref().map(|c| &c[..]),
+            t_min: Bound::Each(&self.t_min),
+            t_max: Bound::Each(&self.t_max),
+        };
+        let hits = stream::HitColumns {
+            t: &mut self.t,
+            u: &mut self.u,
+            v: &mut self.v,
+            prim: &mut self.prim,
+            instance: &mut [],
+        };
+        (rays, hits)
+    }
+}
+
+/// Streams of rays, as the renderer sends them.
+impl<T: Tier> Octray<'_, T> {
+    fn closest_in_streams(&self, rays: &RayColumns<'_>, hits: &mut HitColumns<'_>) {
+        let (mut stream, mut wave) = (RayStream::<T>::new(self.accel), Wave::new());
+        for first in (0..rays.len()).step_by(WAVE) {
+            let len = wave.load(rays, first);
+            let (columns, mut found) = wave.split(len);
+            stream.closest(&columns, rays.apex, self.hint, &mut found);
+            for i in 0..len {
+                hits.t[first + i] = wave.t[i].to_f32();
+                hits.prim[first + i] = if wave.t[i] < wave.t_max[i] { wave.prim[i] } else { NO_HIT };
+            }
+        }
+    }
+
+    fn any_in_streams(&self, rays: &RayColumns<'_>, occluded: &mut [bool]) {
+        let (mut stream, mut wave) = (RayStream::<T>::new(self.accel), Wave::new());
+        let mut bits = [0; WAVE / WIDTH];
+        for (first, occluded) in (0..rays.len()).step_by(WAVE).zip(occluded.chunks_mut(WAVE)) {
+            let len = wave.load(rays, first);
+            stream.any(&wave.split(len).0, rays.apex, self.hint, &mut bits);
+            for (i, occluded) in occluded.iter_mut().enumerate() {
+                *occluded = bits[i / WIDTH] >> (i % WIDTH) & 1 != 0;
+            }
+        }
+    }
+
+    fn closest_one_by_one(&self, rays: &RayColumns<'_>, hits: &mut HitColumns<'_>) {
+        let mut traversal = Traversal::new(self.accel);
+        for first in (0..rays.len()).step_by(WIDTH) {
+            let packet = Self::packet(rays, first);
+            let found = traversal.closest::<T>(&packet, self.hint);
+            let is_hit = found.t.lt(packet.t_max);
+            let prim = T::Wide::select_bits(is_hit, found.prim, BitLane::splat(NO_HIT));
+            let ids = std::array::from_fn(|i| prim.get(i));
+            hits.put_eight(first, T::nearest_f32(found.t).to_array(), ids);
+        }
+    }
+
+    fn any_one_by_one(&self, rays: &RayColumns<'_>, occluded: &mut [bool]) {
+        let mut traversal = Traversal::new(self.accel);
+        for (packet, occluded) in occluded.chunks_mut(WIDTH).enumerate() {
+            let bits = traversal.any::<T>(&Self::packet(rays, packet * WIDTH), self.hint);
+            for (i, occluded) in occluded.iter_mut().enumerate() {
+                *occluded = bits >> i & 1 != 0;
+            }
+        }
+    }
+}
+
+impl<T: Tier> Engine for Octray<'_, T> {
+    fn name(&self) -> &'static str {
+        "octray"
+    }
+    fn mode(&self) -> String {
+        match self.hint {
+            Hint::Auto => T::NAME.name().to_owned(),
+            _ => format!("{}, single rays", T::NAME.name()),
+        }
+    }
+    fn closest(&self, rays: RayColumns<'_>, mut hits: HitColumns<'_>) {
+        match self.hint {
+            Hint::Auto => self.closest_in_streams(&rays, &mut hits),
+            _ => self.closest_one_by_one(&rays, &mut hits),
+        }
+    }
+    fn any(&self, rays: RayColumns<'_>, occluded: &mut [bool]) {
+        match self.hint {
+            Hint::Auto => self.any_in_streams(&rays, occluded),
+            _ => self.any_one_by_one(&rays, occluded),
+        }
+    }
+}
