@@ -4,6 +4,7 @@
 use proptest::prelude::*;
 
 use super::scenes::World;
+use super::streams::check_tree;
 use super::{check, rays, sound};
 use crate::accel::Accel;
 use crate::accel::build::Quality;
@@ -86,6 +87,17 @@ proptest! {
     #[test]
     fn cut_triangles_are_hit_as_whole_ones_in_exact(seed: u64) {
         check_hard_world::<Exact>(seed);
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(60))]
+
+    #[test]
+    fn streams_hit_cut_triangles_as_whole_ones(seed: u64) {
+        let (world, _) = hard_world(seed);
+        check_tree::<Watertight>(&world, Quality::High, seed);
+        check_tree::<Exact>(&world, Quality::High, seed);
     }
 }
 
