@@ -4,7 +4,7 @@
 //! Coherent rays come from a pinhole, eight neighbours of a row a packet; incoherent ones go anywhere.
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use octray::accel::{Accel, Hint, RayScene, RaySceneBuilder, brute};
+use octray::accel::{Accel, Hint, Quality, RayScene, RaySceneBuilder, Traversal, brute};
 use octray::geometry::{Geometry, Group, NO_MATERIAL};
 use octray::intersect::{Hit, Ray, RayLanes, TierName, Watertight};
 use octray::load::terrain;
@@ -99,12 +99,33 @@ fn checked_hits(scenery: &Scenery, rays: &[Ray], hint: Hint) -> usize {
     count
 }
 
+/// A tree is as good as its answers: hits through it are those of the plain loop.
+fn check_tree(accel: &Accel, geometry: &Geometry) {
+    let rays = incoherent();
+    for ray in rays.iter().step_by(rays.len() / CHECKED) {
+        let found =
+            Traversal::new(accel).closest::<Watertight>(&RayLanes::splat(&RayLanes::from(ray)), Hint::Auto);
+        let plain = brute::closest::<Watertight>(geometry, &RayLanes::from(ray));
+        let hit = (found.t.to_array()[0] < ray.t_max).then(|| found.t.to_array()[0]);
+        assert_eq!(hit, plain.map(|hit| hit.t), "{ray:?}");
+    }
+}
+
 fn build(c: &mut Criterion) {
     let mut group = c.benchmark_group("accel/build");
     group.sample_size(10);
     let geometry = terrain_columns(TRIANGLES);
     group.throughput(Throughput::Elements(geometry.triangles.len() as u64));
-    group.bench_function("terrain", |b| b.iter(|| Accel::build(black_box(&geometry))));
+    for quality in [Quality::Fast, Quality::Balanced, Quality::High] {
+        check_tree(&Accel::build_with(&geometry, quality), &geometry);
+        group.bench_function(BenchmarkId::new("terrain", quality.name()), |b| {
+            b.iter(|| Accel::build_with(black_box(&geometry), quality))
+        });
+    }
+    let mut accel = Accel::build(&geometry);
+    group.bench_function("refit", |b| {
+        b.iter(|| accel.refit(black_box(&geometry)).expect("the same triangles"))
+    });
     group.finish();
 }
 

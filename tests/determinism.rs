@@ -3,7 +3,7 @@
 mod common;
 
 use common::{TIERS, builtin, film, film_with, in_tier, parse};
-use octray::describe::{Sampler, SceneDescription};
+use octray::describe::{BuildQuality, Sampler, SceneDescription};
 
 const BUILTINS: [&str; 6] = ["seed", "cornell", "spheres", "glass", "terrain:2000", "instances"];
 /// Neither a multiple of a tile nor of a packet.
@@ -32,6 +32,29 @@ fn threads_and_crops_do_not_change_a_bit() {
     for name in BUILTINS {
         for tier in TIERS {
             check(&format!("{name} {tier:?}"), &in_tier(builtin(name, SIZE, 2), tier));
+        }
+    }
+}
+
+#[test]
+fn trees_of_any_quality_give_the_same_picture() {
+    let sponza = common::shared("sponza/sponza.obj").map(|file| {
+        let view = "[camera]\nposition = [-11, 3.5, 0.3]\nlook_at = [0, 4.5, 0]\nfov_deg = 70\n";
+        let light = "[[light.point]]\nposition = [0, 8, 0]\nintensity = 60\n";
+        (
+            "sponza",
+            parse(&format!(
+                "{view}{light}[render]\nsize = [160, 120]\nspp = 2\n[[mesh]]\npath = '{}'\n",
+                file.display()
+            )),
+        )
+    });
+    let builtins = BUILTINS.map(|name| (name, builtin(name, SIZE, 2)));
+    for (name, mut scene) in builtins.into_iter().chain(sponza) {
+        let balanced = film(&scene);
+        for quality in [BuildQuality::Fast, BuildQuality::High] {
+            scene.render.build_quality = quality;
+            assert_eq!(bits(&balanced), bits(&film(&scene)), "{name}, {quality:?}");
         }
     }
 }

@@ -1,9 +1,9 @@
 //! From the columns of a scene to its trees: one for the world, one for each group that an instance shows.
 
 use super::block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
-use super::build::{BuildPrimitive, KINDS, MAX_DEPTH, Tree, build};
-use super::{Accel, PlacedTree, TreeRoot};
-use crate::geometry::{Geometry, Group, Instance, row3};
+use super::build::{BuildPrimitive, Cuttable, KINDS, MAX_DEPTH, Quality, Tree, build};
+use super::{Accel, BuiltGroup, PlacedTree, TreeRoot};
+use crate::geometry::{Geometry, Group, Instance, Triangles, row3};
 use crate::intersect::PrimKind;
 use crate::math::{Aabb, WIDTH};
 use rayon::prelude::*;
@@ -13,6 +13,20 @@ struct GroupTree {
     tree: Tree,
     /// Kind and row of each primitive number.
     rows: Rows,
+}
+
+/// The triangles of a group, which come first in its numbering.
+struct GroupTriangles<'a> {
+    triangles: &'a Triangles,
+    rows: std::ops::Range<usize>,
+}
+
+impl Cuttable for GroupTriangles<'_> {
+    #[inline]
+    fn corners(&self, primitive: u32) -> Option<[[f32; 3]; 3]> {
+        let n = primitive as usize;
+        (n < self.rows.len()).then(|| self.triangles.corners(self.rows.start + n))
+    }
 }
 
 /// Primitives of a group in one numbering: kinds one after the other.
@@ -42,24 +56,39 @@ impl Accel {
     ///
     /// The result is the same for any number of threads. The current rayon pool is used.
     pub fn build(geometry: &Geometry) -> Self {
+        Self::build_with(geometry, Quality::default())
+    }
+
+    /// [`Accel::build`] with more or less work. Hits are the same.
+    pub fn build_with(geometry: &Geometry, quality: Quality) -> Self {
         let mut accel = Self::empty();
         let mut roots = vec![TreeRoot::default(); geometry.groups.len()];
         let mut bounds = vec![Aabb::EMPTY; geometry.groups.len()];
         for (i, group) in geometry.groups.iter().enumerate().skip(1) {
-            let built = group_tree(geometry, group, &[]);
+            let built = group_tree(geometry, group, &[], quality);
             bounds[i] = built.tree.bounds;
             roots[i] = accel.append(geometry, built);
         }
         let placed: Vec<Aabb> = geometry.instances.iter().map(|i| instance_bounds(i, &bounds)).collect();
         let world = geometry.groups.first().cloned().unwrap_or_default();
-        let built = group_tree(geometry, &world, &placed);
+        let built = group_tree(geometry, &world, &placed, quality);
         accel.bounds = built.tree.bounds;
         accel.world = accel.append(geometry, built);
-        let place = |i: &Instance| PlacedTree { tree: roots[i.group], to_world: i.to_world };
-        accel.instances = geometry.instances.iter().map(place).collect();
-        let p = &geometry.planes;
-        accel.planes = (0..p.len()).map(|i| [row3(&p.point, i), row3(&p.normal, i)]).collect();
+        if let Some(root) = roots.first_mut() {
+            *root = accel.world;
+        }
+        let group = |(root, rows): (TreeRoot, &Group)| BuiltGroup { root, rows: rows.clone() };
+        accel.groups = roots.into_iter().zip(&geometry.groups).map(group).collect();
+        accel.place(geometry);
         accel
+    }
+
+    /// Puts instances and planes where the geometry has them.
+    pub(super) fn place(&mut self, geometry: &Geometry) {
+        let place = |i: &Instance| PlacedTree { tree: self.groups[i.group].root, to_world: i.to_world };
+        self.instances = geometry.instances.iter().map(place).collect();
+        let p = &geometry.planes;
+        self.planes = (0..p.len()).map(|i| [row3(&p.point, i), row3(&p.normal, i)]).collect();
     }
 
     fn empty() -> Self {
@@ -71,6 +100,7 @@ impl Accel {
             instance_blocks: Vec::new(),
             instances: Vec::new(),
             planes: Vec::new(),
+            groups: Vec::new(),
             world: TreeRoot::default(),
             bounds: Aabb::EMPTY,
             stack_bound: 0,
@@ -117,7 +147,7 @@ fn pack<B: Send>(to: &mut Vec<B>, tree: &Tree, rows: &Rows, kind: u8, block: imp
 }
 
 /// The tree over the rows of a group, and in the world over its instances too.
-fn group_tree(geometry: &Geometry, group: &Group, instances: &[Aabb]) -> GroupTree {
+fn group_tree(geometry: &Geometry, group: &Group, instances: &[Aabb], quality: Quality) -> GroupTree {
     let Group { triangles, spheres, cylinders } = group.clone();
     let of = |bounds: Aabb, kind: u8| BuildPrimitive { bounds, kind };
     let mut primitives: Vec<BuildPrimitive> = triangles
@@ -128,12 +158,14 @@ fn group_tree(geometry: &Geometry, group: &Group, instances: &[Aabb]) -> GroupTr
     primitives.extend(spheres.clone().map(|r| of(geometry.spheres.bounds(r), PrimKind::Sphere as u8)));
     primitives.extend(cylinders.clone().map(|r| of(geometry.cylinders.bounds(r), PrimKind::Cylinder as u8)));
     primitives.extend(instances.iter().map(|&b| of(b, Accel::INSTANCE)));
-    GroupTree { tree: build(&primitives), rows: Rows { triangles, spheres, cylinders } }
+    let cuttable = GroupTriangles { triangles: &geometry.triangles, rows: triangles.clone() };
+    let tree = build(&primitives, quality, &cuttable);
+    GroupTree { tree, rows: Rows { triangles, spheres, cylinders } }
 }
 
 /// The box of an instance, grown by what rounding does to rays on their way into its space: 64 roundoffs of the largest
 /// coordinate on either side of the transform.
-fn instance_bounds(instance: &Instance, groups: &[Aabb]) -> Aabb {
+pub(super) fn instance_bounds(instance: &Instance, groups: &[Aabb]) -> Aabb {
     let local = groups[instance.group];
     let local = local.padded(local.magnitude() * crate::math::gamma(64));
     let world = instance.to_world.bounds(&local);

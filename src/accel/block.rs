@@ -2,7 +2,7 @@
 
 use crate::geometry::Geometry;
 use crate::intersect::{PrimId, PrimKind, cylinder, sphere};
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH, three};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight, three};
 use wide::f32x8;
 
 /// How a leaf is walked: which primitive stands in which lane at a step.
@@ -112,8 +112,9 @@ pub struct InstanceBlock {
 }
 
 /// Lane by lane from the rows of a leaf; NaN beyond them.
+#[inline(always)]
 fn lanes(rows: &[u32], value: impl Fn(usize) -> f32) -> [f32; WIDTH] {
-    std::array::from_fn(|i| rows.get(i).map_or(f32::NAN, |&r| value(r as usize)))
+    eight(|i| rows.get(i).map_or(f32::NAN, |&r| value(r as usize)))
 }
 
 fn lanes3(rows: &[u32], columns: &[Vec<f32>; 3]) -> [[f32; WIDTH]; 3] {
@@ -121,18 +122,22 @@ fn lanes3(rows: &[u32], columns: &[Vec<f32>; 3]) -> [[f32; WIDTH]; 3] {
 }
 
 fn ids(rows: &[u32], kind: PrimKind) -> [u32; WIDTH] {
-    std::array::from_fn(|i| rows.get(i).map_or(u32::MAX, |&r| PrimId::new(kind, r as usize).0))
+    eight(|i| rows.get(i).map_or(u32::MAX, |&r| PrimId::new(kind, r as usize).0))
 }
 
 impl TriangleBlock {
     /// Packs rows of the triangle columns.
     pub fn pack(geometry: &Geometry, rows: &[u32]) -> Self {
         let t = &geometry.triangles;
-        let corner = t
-            .vertex
-            .each_ref()
-            .map(|vertex| t.position.each_ref().map(|axis| lanes(rows, |r| axis[vertex[r] as usize])));
+        let place =
+            |corner: usize, axis: usize| lanes(rows, |r| t.position[axis][t.vertex[corner][r] as usize]);
+        let corner = three(|corner| three(|axis| place(corner, axis)));
         Self { corner, id: ids(rows, PrimKind::Triangle), len: rows.len() as u32 }
+    }
+    /// True if the corners are the same bits.
+    pub fn stands_as(&self, o: &Self) -> bool {
+        let bits = |block: &Self| block.corner.map(|c| c.map(|axis| axis.map(f32::to_bits)));
+        bits(self) == bits(o)
     }
     /// The corners of triangle `i`.
     #[inline(always)]

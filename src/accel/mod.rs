@@ -4,6 +4,7 @@ mod assemble;
 pub mod block;
 pub mod brute;
 pub mod build;
+mod cover;
 mod descend;
 mod leaf;
 pub mod node;
@@ -11,6 +12,7 @@ mod order;
 mod packet;
 pub mod query;
 mod ray_scene;
+mod refit;
 mod single;
 pub mod stream;
 #[cfg(test)]
@@ -18,16 +20,20 @@ mod tests;
 mod traversal;
 mod unchecked;
 pub mod validate;
+pub mod visits;
 
 use block::{Block, CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
 use node::{ChildRef, Node8};
 
+use crate::geometry::Group;
 use crate::intersect::{PrimKind, RayLanes, Tier};
 use crate::math::{Aabb, Lane, Transform, Vec3};
 use leaf::PreparedRays;
 use query::Query;
 
+pub use build::Quality;
 pub use ray_scene::{Primitive, RayScene, RaySceneBuilder, RaySceneError};
+pub use refit::RefitError;
 pub use traversal::{Hint, Traversal};
 
 /// Trees of all groups of a scene, and their leaves, packed.
@@ -40,6 +46,7 @@ pub struct Accel {
     instance_blocks: Vec<InstanceBlock>,
     instances: Vec<PlacedTree>,
     planes: Vec<[[f32; 3]; 2]>,
+    groups: Vec<BuiltGroup>,
     world: TreeRoot,
     bounds: Aabb,
     stack_bound: usize,
@@ -50,6 +57,13 @@ pub struct Accel {
 struct TreeRoot {
     node: u32,
     scale: f32,
+}
+
+/// A group as it was built.
+#[derive(Clone, Debug)]
+struct BuiltGroup {
+    root: TreeRoot,
+    rows: Group,
 }
 
 /// The tree of a group seen through an instance.
@@ -74,6 +88,14 @@ impl Accel {
     /// Leaves of all trees.
     pub fn leaf_count(&self) -> usize {
         self.triangles.len() + self.spheres.len() + self.cylinders.len() + self.instance_blocks.len()
+    }
+    /// Places in leaves that are taken: as many as primitives and instances, and more where triangles are cut.
+    pub fn reference_count(&self) -> usize {
+        fn held<B: Block>(blocks: &[B]) -> usize {
+            blocks.iter().map(|block| block.count() as usize).sum()
+        }
+        let instances = self.instance_blocks.iter().map(|block| block.len as usize).sum::<usize>();
+        held(&self.triangles) + held(&self.spheres) + held(&self.cylinders) + instances
     }
     /// Name and bytes of each array.
     pub fn memory(&self) -> Vec<(String, u64)> {

@@ -2,11 +2,16 @@
 //!
 //! It follows the references from the root and believes nothing that the builder said.
 
+mod fault;
+
 use super::build::{
-    BLOCK_CYCLES, BuildPrimitive, KINDS, LEAF_SIZE, Leaf, MAX_DEPTH, NODE_CYCLES, Tree, half_area,
+    BLOCK_CYCLES, BuildPrimitive, Cuttable, KINDS, LEAF_SIZE, Leaf, MAX_DEPTH, NODE_CYCLES, Tree, Uncut,
+    half_area,
 };
+use super::cover::covers;
 use super::node::ChildRef;
 use crate::math::{Aabb, WIDTH};
+pub use fault::{Place, TreeFault};
 
 /// What a tree looks like.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -19,91 +24,45 @@ pub struct TreeStats {
     pub sah_cost: f64,
     /// Taken slots a node.
     pub mean_children: f64,
-    /// Primitives a leaf.
+    /// Primitives a leaf; those that were cut count in each of their leaves.
     pub mean_primitives: f64,
-}
-
-/// A slot of a node.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Place {
-    /// Number of the node.
-    pub node: u32,
-    /// Slot from 0 to 7.
-    pub slot: usize,
-}
-
-impl std::fmt::Display for Place {
-    fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
-        write!(f, "slot {} of node {}", self.slot, self.node)
-    }
-}
-
-/// What is wrong with a tree.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum TreeFault {
-    /// There is no root.
-    #[error("there is no root node")]
-    NoRoot,
-    /// The bounds of the tree are not the box of its primitives.
-    #[error("the bounds of the tree are not those of its primitives")]
-    Bounds,
-    /// A reference leads outside the arrays.
-    #[error("{0} refers to something that is not there")]
-    OutOfRange(Place),
-    /// A node or leaf is reached twice: a cycle, or two parents.
-    #[error("{0} leads to what was reached before")]
-    ReachedTwice(Place),
-    /// A ray could hit a free slot.
-    #[error("{0} is free, but its box is not the box of nothing")]
-    FreeSlotHasBox(Place),
-    /// A box does not hold a box below it, or sticks out of the one above.
-    #[error("the box of {0} does not hold what is below, or sticks out of the box above")]
-    Box(Place),
-    /// A leaf has no or too many primitives, or they are of another kind, or not ascending.
-    #[error("the leaf in {0} is malformed")]
-    Leaf(Place),
-    /// Nothing leads to some nodes or leaves.
-    #[error("{0} nodes or leaves are not reached from the root")]
-    Unreached(usize),
-    /// A primitive is not in exactly one leaf.
-    #[error("primitive {primitive} is in {leaves} leaves")]
-    Held {
-        /// Its number.
-        primitive: usize,
-        /// Leaves that hold it.
-        leaves: u32,
-    },
-    /// The depth is not as reported, or above [`MAX_DEPTH`].
-    #[error("the depth is {found}, reported as {reported}")]
-    Depth {
-        /// As counted.
-        found: u32,
-        /// As the tree says.
-        reported: u32,
-    },
 }
 
 /// Checks a tree against the primitives it was built from. **Needs:** references that were not offset.
 ///
 /// **Errors:** the first [`TreeFault`] found.
 pub fn validate(tree: &Tree, primitives: &[BuildPrimitive]) -> Result<TreeStats, TreeFault> {
+    validate_cut(tree, primitives, &Uncut)
+}
+
+/// [`validate`] for a tree that may have cut these triangles: the boxes of the leaves that hold one must cover it.
+///
+/// **Errors:** the first [`TreeFault`] found.
+pub fn validate_cut(
+    tree: &Tree,
+    primitives: &[BuildPrimitive],
+    triangles: &impl Cuttable,
+) -> Result<TreeStats, TreeFault> {
     let all = primitives.iter().fold(Aabb::EMPTY, |all, primitive| all.join(primitive.bounds));
     ensure(all == tree.bounds, TreeFault::Bounds)?;
     ensure(!tree.nodes.is_empty(), TreeFault::NoRoot)?;
-    let mut walk = Walk::new(tree, primitives);
+    let mut walk = Walk::new(tree, primitives, triangles);
     walk.run()?;
     walk.finish()
 }
 
 /// What was reached so far, and the sums of the statistics.
-struct Walk<'a> {
+struct Walk<'a, C> {
     tree: &'a Tree,
     primitives: &'a [BuildPrimitive],
+    triangles: &'a C,
     node_reached: Vec<bool>,
     leaf_reached: Vec<bool>,
     /// Where the leaves of each kind start.
     kind_start: [Option<usize>; KINDS],
     times_held: Vec<u32>,
+    /// Primitives and boxes of leaves that hold a part of them.
+    parts: Vec<(u32, Aabb)>,
     depth: u32,
     children: usize,
     sah_cycles: f64,
@@ -111,16 +70,18 @@ struct Walk<'a> {
     stack: Vec<(u32, u32, Aabb)>,
 }
 
-impl<'a> Walk<'a> {
-    fn new(tree: &'a Tree, primitives: &'a [BuildPrimitive]) -> Self {
+impl<'a, C: Cuttable> Walk<'a, C> {
+    fn new(tree: &'a Tree, primitives: &'a [BuildPrimitive], triangles: &'a C) -> Self {
         let start = |kind| tree.leaves.iter().position(|leaf| usize::from(leaf.kind) == kind);
         Self {
             tree,
             primitives,
+            triangles,
             node_reached: (0..tree.nodes.len()).map(|node| node == 0).collect(),
             leaf_reached: vec![false; tree.leaves.len()],
             kind_start: std::array::from_fn(start),
             times_held: vec![0; primitives.len()],
+            parts: Vec::new(),
             depth: 0,
             children: 0,
             sah_cycles: 0.0,
@@ -162,8 +123,13 @@ impl<'a> Walk<'a> {
         self.sah_cycles += BLOCK_CYCLES * half_area(&bounds);
         for &primitive in self.held(&self.tree.leaves[at]).ok_or(TreeFault::Leaf(place))? {
             self.times_held[primitive as usize] += 1;
-            let inside = bounds.contains(&self.primitives[primitive as usize].bounds);
-            ensure(inside, TreeFault::Box(place))?;
+            let own = self.primitives[primitive as usize].bounds;
+            if !bounds.contains(&own) {
+                let part =
+                    self.triangles.corners(primitive).is_some() && !bounds.intersection(own).is_empty();
+                ensure(part, TreeFault::Box(place))?;
+                self.parts.push((primitive, bounds));
+            }
         }
         Ok(())
     }
@@ -186,16 +152,32 @@ impl<'a> Walk<'a> {
         well_formed.then_some(held)
     }
 
-    fn finish(self) -> Result<TreeStats, TreeFault> {
+    fn finish(mut self) -> Result<TreeStats, TreeFault> {
         let missed = |reached: &[bool]| reached.iter().filter(|&&reached| !reached).count();
         let count = missed(&self.node_reached) + missed(&self.leaf_reached);
         ensure(count == 0, TreeFault::Unreached(count))?;
-        if let Some(primitive) = self.times_held.iter().position(|&times| times != 1) {
-            return Err(TreeFault::Held { primitive, leaves: self.times_held[primitive] });
-        }
+        self.held_as_they_should()?;
         let (found, reported) = (self.depth, self.tree.max_depth);
         ensure(found == reported && found <= MAX_DEPTH, TreeFault::Depth { found, reported })?;
         Ok(self.stats())
+    }
+
+    /// Each primitive is in one leaf, or in several that cover it together.
+    fn held_as_they_should(&mut self) -> Result<(), TreeFault> {
+        for (primitive, &leaves) in self.times_held.iter().enumerate() {
+            let often = leaves > 1 && self.triangles.corners(primitive as u32).is_none();
+            ensure(leaves > 0 && !often, TreeFault::Held { primitive, leaves })?;
+        }
+        self.parts.sort_by_key(|part| part.0);
+        for parts in self.parts.chunk_by(|a, b| a.0 == b.0) {
+            let primitive = parts[0].0 as usize;
+            let whole_elsewhere = self.times_held[primitive] as usize > parts.len();
+            let boxes: Vec<Aabb> = parts.iter().map(|part| part.1).collect();
+            let corners = self.triangles.corners(parts[0].0);
+            let covered = whole_elsewhere || corners.is_some_and(|corners| covers(&boxes, corners));
+            ensure(covered, TreeFault::Gap { primitive })?;
+        }
+        Ok(())
     }
 
     fn stats(&self) -> TreeStats {
@@ -206,7 +188,7 @@ impl<'a> Walk<'a> {
             leaves,
             sah_cost: ratio(self.sah_cycles, half_area(&self.tree.bounds)),
             mean_children: ratio(self.children as f64, nodes as f64),
-            mean_primitives: ratio(self.primitives.len() as f64, leaves as f64),
+            mean_primitives: ratio(self.times_held.iter().sum::<u32>().into(), leaves as f64),
         }
     }
 }
@@ -222,57 +204,4 @@ fn reach(reached: &mut [bool], at: usize, place: Place) -> Result<(), TreeFault>
 }
 
 #[cfg(test)]
-mod tests {
-    use super::super::build::build;
-    use super::*;
-
-    fn row(count: usize) -> Vec<BuildPrimitive> {
-        let at = |i: usize| Aabb { min: [i as f32, 0.0, 0.0], max: [i as f32 + 0.5, 1.0, 1.0] };
-        (0..count).map(|i| BuildPrimitive { bounds: at(i), kind: 1 + (i % 2) as u8 }).collect()
-    }
-
-    /// The fault that some damage to a sound tree of 200 primitives causes.
-    fn fault(damage: impl Fn(&mut Tree)) -> TreeFault {
-        let primitives = row(200);
-        let mut tree = build(&primitives);
-        validate(&tree, &primitives).unwrap();
-        damage(&mut tree);
-        validate(&tree, &primitives).unwrap_err()
-    }
-
-    fn first(tree: &Tree, wanted: fn(ChildRef) -> bool) -> (usize, usize) {
-        let places = (0..tree.nodes.len()).flat_map(|node| (0..WIDTH).map(move |slot| (node, slot)));
-        places.into_iter().find(|&(node, slot)| wanted(tree.nodes[node].child[slot])).unwrap()
-    }
-
-    fn redirect(tree: &mut Tree, wanted: fn(ChildRef) -> bool, to: ChildRef) {
-        let (node, slot) = first(tree, wanted);
-        tree.nodes[node].child[slot] = to;
-    }
-
-    #[test]
-    fn references_that_lead_astray_are_found() {
-        let astray = |to| fault(move |tree| redirect(tree, ChildRef::is_node, to));
-        assert!(matches!(astray(ChildRef::node(0)), TreeFault::ReachedTwice(_)));
-        assert!(matches!(astray(ChildRef::node(1 << 20)), TreeFault::OutOfRange(_)));
-        assert!(matches!(astray(ChildRef::leaf(2, 1 << 20)), TreeFault::OutOfRange(_)));
-        assert!(matches!(astray(ChildRef::leaf(5, 0)), TreeFault::OutOfRange(_)));
-        assert!(matches!(astray(ChildRef::EMPTY), TreeFault::FreeSlotHasBox(_)));
-    }
-
-    #[test]
-    fn wrong_boxes_leaves_and_totals_are_found() {
-        let shrunk = |tree: &mut Tree| {
-            let (node, slot) = first(tree, ChildRef::is_leaf);
-            tree.nodes[node].hi[0][slot] -= 0.25;
-        };
-        assert!(matches!(fault(shrunk), TreeFault::Box(_)));
-        assert!(matches!(fault(|tree| tree.leaves[0].len = 9), TreeFault::Leaf(_)));
-        assert!(matches!(fault(|tree| tree.order.swap(0, 1)), TreeFault::Leaf(_)));
-        assert!(matches!(fault(|tree| tree.leaves[0].len -= 1), TreeFault::Held { leaves: 0, .. }));
-        assert!(matches!(fault(|tree| tree.max_depth += 1), TreeFault::Depth { .. }));
-        assert!(matches!(fault(|tree| tree.nodes.push(tree.nodes[0])), TreeFault::Unreached(1)));
-        assert_eq!(fault(|tree| tree.nodes.clear()), TreeFault::NoRoot);
-        assert_eq!(fault(|tree| tree.bounds.max[0] += 1.0), TreeFault::Bounds);
-    }
-}
+mod tests;

@@ -35,7 +35,7 @@ pub enum Verb {
     /// Render a scene to a picture
     Render(Box<RenderArgs>),
     /// Show what a scene holds and which stages it needs
-    Inspect(SceneArgs),
+    Inspect(InspectArgs),
     /// Measure rays a second
     Bench(Box<BenchArgs>),
     /// List the built-in scenes, or print one as a scene file
@@ -57,6 +57,17 @@ pub struct SceneArgs {
     /// Replace a value of the scene, such as camera.fov_deg=40; may be repeated
     #[arg(long = "set", value_name = "KEY=VALUE", value_parser = parse_assignment)]
     pub assignments: Vec<(String, String)>,
+}
+
+/// Arguments of `octray inspect`.
+#[derive(Debug, clap::Args)]
+pub struct InspectArgs {
+    /// How much work goes into building the tree
+    #[arg(long, value_name = "HOW")]
+    pub build_quality: Option<BuildQuality>,
+    /// Which scene, and changes to it.
+    #[command(flatten)]
+    pub scene: SceneArgs,
 }
 
 /// Arguments of `octray render`.
@@ -86,6 +97,9 @@ pub struct RenderArgs {
     /// How exactly rays are intersected
     #[arg(long)]
     pub tier: Option<Tier>,
+    /// How much work goes into building the tree; the picture stays the same
+    #[arg(long, value_name = "HOW")]
+    pub build_quality: Option<BuildQuality>,
     /// Render only this part of the picture: left, top, width, height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_crop)]
     pub crop: Option<[u32; 4]>,
@@ -133,6 +147,24 @@ pub enum Tier {
     Exact,
 }
 
+/// How much work goes into building the tree.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum BuildQuality {
+    /// Soonest built: for few rays
+    Fast,
+    /// Good for most scenes
+    Balanced,
+    /// Also cuts triangles where they overlap: for many rays
+    High,
+}
+
+impl BuildQuality {
+    /// As it is written in a scene file.
+    fn assignment(self) -> Option<String> {
+        self.to_possible_value().map(|value| format!("\"{}\"", value.get_name()))
+    }
+}
+
 /// How progress is shown.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub enum ProgressMode {
@@ -148,6 +180,15 @@ pub enum ProgressMode {
     None,
 }
 
+impl InspectArgs {
+    /// All changes to the scene in the order in which they apply.
+    pub fn assignments(&self) -> Vec<(String, String)> {
+        let quality = self.build_quality.and_then(BuildQuality::assignment);
+        let given = quality.map(|value| ("render.build_quality".to_owned(), value));
+        self.scene.assignments.iter().cloned().chain(given).collect()
+    }
+}
+
 impl RenderArgs {
     /// All changes to the scene in the order in which they apply: flags are short for assignments and win over them.
     pub fn assignments(&self) -> Vec<(String, String)> {
@@ -158,6 +199,7 @@ impl RenderArgs {
             ("render.max_depth", self.max_depth.map(|depth| depth.to_string())),
             ("render.seed", self.seed.map(|seed| seed.to_string())),
             ("render.tier", tier.map(|tier| format!("\"{}\"", tier.get_name()))),
+            ("render.build_quality", self.build_quality.and_then(BuildQuality::assignment)),
         ];
         let given = flags.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?)));
         self.scene.assignments.iter().cloned().chain(given).collect()
@@ -187,60 +229,4 @@ fn parse_assignment(text: &str) -> Result<(String, String), String> {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use clap::CommandFactory;
-
-    fn render(line: &str) -> RenderArgs {
-        match Args::parse_from(["octray", "render"].into_iter().chain(line.split_whitespace())).verb {
-            Verb::Render(args) => *args,
-            other => panic!("{other:?}"),
-        }
-    }
-
-    #[test]
-    fn the_command_is_consistent() {
-        Args::command().debug_assert();
-    }
-
-    #[test]
-    fn sizes_and_crops() {
-        assert_eq!(parse_size("640x480"), Ok([640, 480]));
-        for bad in ["", "640", "0x480", "640x0", "x", "-1x5", "1e3x5", "640x480x3", "5000000000x1"] {
-            assert!(parse_size(bad).is_err(), "{bad}");
-        }
-        assert_eq!(parse_crop("0,1, 20,30"), Ok([0, 1, 20, 30]));
-        for bad in ["", "1,2,3", "1,2,3,0", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4"] {
-            assert!(parse_crop(bad).is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn assignments_keep_what_follows_the_first_sign() {
-        let pair = |key: &str, value: &str| Ok((key.to_owned(), value.to_owned()));
-        assert_eq!(parse_assignment("material.0.name=a=b"), pair("material.0.name", "a=b"));
-        assert_eq!(parse_assignment("camera.fov_deg = 40"), pair("camera.fov_deg", "40"));
-        for bad in ["", "=", "=4", "camera"] {
-            assert!(parse_assignment(bad).is_err(), "{bad}");
-        }
-    }
-
-    #[test]
-    fn flags_are_short_for_assignments_and_come_last() {
-        let args = render("a.toml --spp 4 --set render.spp=9 --size 3x2 --seed 7 --max-depth 0 --tier exact");
-        let assignments: Vec<String> =
-            args.assignments().iter().map(|(key, value)| format!("{key}={value}")).collect();
-        assert_eq!(
-            assignments,
-            [
-                "render.spp=9",
-                "render.size=[3, 2]",
-                "render.spp=4",
-                "render.max_depth=0",
-                "render.seed=7",
-                "render.tier=\"exact\""
-            ]
-        );
-        assert!(render("").assignments().is_empty());
-    }
-}
+mod tests;

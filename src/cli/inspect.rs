@@ -2,15 +2,15 @@
 
 use std::fmt::Write;
 
-use super::args::SceneArgs;
+use super::args::InspectArgs;
 use super::error::CliError;
 use super::{human, pipeline, stdio};
 use crate::intersect::PrimKind;
 use crate::scene::{Requirements, Scatter, Scene};
 
 /// Prints what the scene holds.
-pub fn run(args: &SceneArgs) -> Result<(), CliError> {
-    let opened = pipeline::open(&args.scene, &args.assignments, 0)?;
+pub fn run(args: &InspectArgs) -> Result<(), CliError> {
+    let opened = pipeline::open(&args.scene.scene, &args.assignments(), 0)?;
     stdio::print(report(&opened.name, &opened.scene).as_bytes())
 }
 
@@ -49,12 +49,34 @@ fn holds(scene: &Scene) -> Vec<(String, String)> {
     row("lights", if lights.is_empty() { "none".into() } else { lights.join(", ") });
     let b = scene.accel.bounds();
     row("bounds", if b.is_empty() { "empty".into() } else { format!("{:?} to {:?}", b.min, b.max) });
-    row("tree", format!("{} nodes, {} leaves", scene.accel.node_count(), scene.accel.leaf_count()));
+    row("tree", tree(scene));
     row("picture", format!("{}x{}, {} samples a pixel, {:?}", s.size[0], s.size[1], s.spp, s.sampler));
     row("filter", format!("{:?}", s.filter));
     row("tier", s.tier.name().into());
     row("bounces", format!("at most {}", s.max_depth));
     rows
+}
+
+/// What the tree is made of, and what that is for each primitive; one that was cut counts once.
+fn tree(scene: &Scene) -> String {
+    let (g, accel) = (&scene.geometry, &scene.accel);
+    let text = format!(
+        "{} nodes, {} leaves, {} quality",
+        accel.node_count(),
+        accel.leaf_count(),
+        scene.settings.build_quality.name()
+    );
+    let held = g.triangles.len() + g.spheres.len() + g.cylinders.len() + g.instances.len();
+    if held == 0 {
+        return text;
+    }
+    let bytes: u64 = accel.memory().iter().map(|(_, bytes)| bytes).sum();
+    let each = |total: f64, of: usize| total / of as f64;
+    format!(
+        "{text}, {:.1} bytes a primitive, {:.1} primitives a leaf",
+        each(bytes as f64, held),
+        each(accel.reference_count() as f64, accel.leaf_count())
+    )
 }
 
 fn memory(scene: &Scene) -> Vec<(String, String)> {

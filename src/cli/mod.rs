@@ -24,7 +24,10 @@ mod source;
 mod stdio;
 mod summary;
 
-pub use args::{Args, CompletionsArgs, ManArgs, ProgressMode, RenderArgs, SceneArgs, ScenesArgs, Tier, Verb};
+pub use args::{
+    Args, BuildQuality, CompletionsArgs, InspectArgs, ManArgs, ProgressMode, RenderArgs, SceneArgs,
+    ScenesArgs, Tier, Verb,
+};
 pub use bench::BenchArgs;
 pub use error::{CliError, Exit, exit_code};
 pub use source::SceneSource;

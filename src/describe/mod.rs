@@ -56,7 +56,7 @@ pub use material::{Material, MaterialKind};
 pub use mesh::{Instance, Mesh, MeshSource, Procedural, ProceduralKind};
 pub use number::{Factors, Rgb};
 pub use parse::{parse, parse_with, read, read_with};
-pub use render::{Filter, FilterKind, Render, Sampler, Tier, Tone};
+pub use render::{BuildQuality, Filter, FilterKind, Render, Sampler, Tier, Tone};
 pub use scene::{Group, Objects, SceneDescription, Target};
 pub use shape::{Cylinder, Plane, Quad, Sphere, Triangle};
 pub use transform::{Rotation, Step, Transform};

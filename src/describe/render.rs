@@ -17,6 +17,9 @@ pub struct Render {
     pub seed: u64,
     /// Precision: `fast`, `watertight` (default) or `exact`.
     pub tier: Tier,
+    /// Work that goes into the tree that rays search: `fast`, `balanced` (default) or `high`. Changes times, not the picture
+    /// (but in tier `fast`).
+    pub build_quality: BuildQuality,
     /// How samples are spread: `random`, `stratified` or `sobol` (default).
     pub sampler: Sampler,
     /// The pixel filter.
@@ -40,6 +43,19 @@ pub enum Tier {
     Watertight,
     /// Double precision.
     Exact,
+}
+
+/// How much work goes into building the tree: it pays back ray by ray.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum BuildQuality {
+    /// Soonest built: for few rays.
+    Fast,
+    /// Good for most scenes.
+    #[default]
+    Balanced,
+    /// Also cuts triangles where they overlap: for many rays in scenes of large or long triangles.
+    High,
 }
 
 /// How the samples of a pixel are spread.
@@ -107,6 +123,7 @@ impl Default for Render {
             max_depth: 6,
             seed: 0,
             tier: Tier::default(),
+            build_quality: BuildQuality::default(),
             sampler: Sampler::default(),
             filter: Filter::default(),
             exposure: 0.0,

@@ -3,7 +3,7 @@
 use std::ops::Range;
 
 use crate::intersect::{PrimKind, cylinder, sphere, triangle};
-use crate::math::{Aabb, Transform};
+use crate::math::{Aabb, Transform, three};
 
 /// No material of its own: keeps the primitive's.
 pub const NO_MATERIAL: u32 = u32::MAX;
@@ -64,7 +64,7 @@ pub struct Planes {
 }
 
 /// The rows of each kind that belong together: the world, or what an instance shows.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Group {
     /// Triangle rows.
     pub triangles: Range<usize>,
@@ -127,7 +127,7 @@ impl Triangles {
     /// The corners of a row.
     #[inline(always)]
     pub fn corners(&self, row: usize) -> [[f32; 3]; 3] {
-        self.vertex.each_ref().map(|column| row3(&self.position, column[row] as usize))
+        three(|k| row3(&self.position, self.vertex[k][row] as usize))
     }
     /// The box of a row.
     pub fn bounds(&self, row: usize) -> Aabb {

@@ -15,7 +15,7 @@ pub use material::{MaterialRow, Materials, NO_TEXTURE, Scatter};
 pub use requirements::Requirements;
 pub use texture::sample_texture;
 
-use crate::accel::Accel;
+use crate::accel::{Accel, Quality};
 use crate::film::Tone;
 use crate::geometry::Geometry;
 use crate::intersect::TierName;
@@ -61,6 +61,8 @@ pub struct RenderSettings {
     pub seed: u64,
     /// Precision.
     pub tier: TierName,
+    /// Work that went into the trees.
+    pub build_quality: Quality,
     /// How samples are placed.
     pub sampler: SamplerKind,
     /// How samples count by their place in the pixel.

@@ -8,7 +8,7 @@
 use wide::f32x4;
 
 use super::LEAF_SIZE;
-use super::item::{Box4, Extent, Item, partition, reduce};
+use super::item::{Box4, Extent, Item, longest_axis, partition, reduce};
 
 /// Bins on an axis; powers of two, so that an index is confined by a mask. Short ranges, which are most of them, spend
 /// their time on the bins rather than on the items.
@@ -60,13 +60,30 @@ impl Cut {
 
 /// The best cut of a range; `None` if no border has items on both sides, or if no cost is a number.
 pub(super) fn best_cut(items: &[Item], extent: &Extent) -> Option<Cut> {
-    if items.len() <= FEW_ITEMS { best_of::<FEW>(items, extent) } else { best_of::<MANY>(items, extent) }
+    if items.len() <= FEW_ITEMS {
+        Bins::<FEW>::of(items, extent).best()
+    } else {
+        Bins::<MANY>::of(items, extent).best()
+    }
 }
 
-fn best_of<const BINS: usize>(items: &[Item], extent: &Extent) -> Option<Cut> {
-    let binning = Binning::new::<BINS>(extent.centroids);
-    let bins = reduce(items, &|run| Bins::<BINS>::of_run(run, &binning), &Bins::join);
-    (0..3).filter_map(|axis| bins.best_on(axis)).reduce(Cut::better)
+/// [`best_cut`], and half the area of what the boxes of its sides share.
+pub(super) fn best_cut_and_overlap(items: &[Item], extent: &Extent) -> (Option<Cut>, f64) {
+    if items.len() <= FEW_ITEMS {
+        Bins::<FEW>::of(items, extent).best_and_overlap()
+    } else {
+        Bins::<MANY>::of(items, extent).best_and_overlap()
+    }
+}
+
+/// The best cut across the longest axis alone.
+pub(super) fn quick_cut(items: &[Item], extent: &Extent) -> Option<Cut> {
+    let axis = longest_axis(extent.centroids);
+    if items.len() <= FEW_ITEMS {
+        best_on(axis, &sides_on::<FEW>(axis, items, extent))
+    } else {
+        best_on(axis, &sides_on::<MANY>(axis, items, extent))
+    }
 }
 
 /// Moves the items left of the cut before the others, and gives their count: never 0, never all.
@@ -89,6 +106,11 @@ struct Bins<const BINS: usize> {
 }
 
 impl<const BINS: usize> Bins<BINS> {
+    fn of(items: &[Item], extent: &Extent) -> Self {
+        let binning = Binning::new::<BINS>(extent.centroids);
+        reduce(items, &|run| Self::of_run(run, &binning), &Self::join)
+    }
+
     fn of_run(items: &[Item], binning: &Binning) -> Self {
         let mut bins = Self { sides: [[Side::EMPTY; BINS]; 3] };
         for item in items {
@@ -99,56 +121,87 @@ impl<const BINS: usize> Bins<BINS> {
         bins
     }
 
-    fn join(mut self, o: Self) -> Self {
-        for (side, other) in self.sides.iter_mut().flatten().zip(o.sides.into_iter().flatten()) {
-            side.add(other);
-        }
-        self
+    fn join(self, o: Self) -> Self {
+        let [a, b, c] = self.sides;
+        let [d, e, f] = o.sides;
+        Self { sides: [join_sides(a, d), join_sides(b, e), join_sides(c, f)] }
     }
 
-    fn best_on(&self, axis: usize) -> Option<Cut> {
-        let mut left = Side::EMPTY;
-        let mut best = Cut { axis, bin: 0, cost: f64::INFINITY, larger_side: u32::MAX };
-        for (bin, (right_cost, right_count)) in self.right_sides(axis).into_iter().enumerate().skip(1) {
-            left.add(self.sides[axis][bin - 1]);
-            if left.count != 0 && right_count != 0 {
-                let cost = left.cost() + right_cost;
-                best = best.better(Cut { axis, bin, cost, larger_side: left.count.max(right_count) });
-            }
-        }
-        (best.bin != 0).then_some(best)
+    fn best(&self) -> Option<Cut> {
+        (0..3).filter_map(|axis| best_on(axis, &self.sides[axis])).reduce(Cut::better)
     }
 
-    /// Cost and count of all bins from the given one on.
-    fn right_sides(&self, axis: usize) -> [(f64, u32); BINS] {
-        let mut sides = [(0.0, 0); BINS];
-        let mut right = Side::EMPTY;
-        for bin in (1..BINS).rev() {
-            right.add(self.sides[axis][bin]);
-            sides[bin] = (right.cost(), right.count);
+    fn best_and_overlap(&self) -> (Option<Cut>, f64) {
+        let Some(cut) = self.best() else { return (None, 0.0) };
+        let (left, right) = self.sides[cut.axis].split_at(cut.bin);
+        let of = |sides: &[Side]| sides.iter().fold(Box4::EMPTY, |all, side| all.join(side.bounds));
+        let shared = of(left).intersection(of(right));
+        (Some(cut), if shared.is_empty() { 0.0 } else { shared.half_area() })
+    }
+}
+
+/// What fell into each bin of one axis.
+fn sides_on<const BINS: usize>(axis: usize, items: &[Item], extent: &Extent) -> [Side; BINS] {
+    let binning = Binning::new::<BINS>(extent.centroids);
+    let run = |run: &[Item]| {
+        let mut sides = [Side::EMPTY; BINS];
+        for item in run {
+            sides[binning.bins::<BINS>(item)[axis]].add(Side { bounds: item.bounds, count: 1 });
         }
         sides
+    };
+    reduce(items, &run, &join_sides)
+}
+
+fn join_sides<const BINS: usize>(mut a: [Side; BINS], b: [Side; BINS]) -> [Side; BINS] {
+    for (side, other) in a.iter_mut().zip(b) {
+        side.add(other);
     }
+    a
+}
+
+fn best_on<const BINS: usize>(axis: usize, sides: &[Side; BINS]) -> Option<Cut> {
+    let mut left = Side::EMPTY;
+    let mut best = Cut { axis, bin: 0, cost: f64::INFINITY, larger_side: u32::MAX };
+    for (bin, (right_cost, right_count)) in right_sides(sides).into_iter().enumerate().skip(1) {
+        left.add(sides[bin - 1]);
+        if left.count != 0 && right_count != 0 {
+            let cost = left.cost() + right_cost;
+            best = best.better(Cut { axis, bin, cost, larger_side: left.count.max(right_count) });
+        }
+    }
+    (best.bin != 0).then_some(best)
+}
+
+/// Cost and count of all bins from each one on.
+fn right_sides<const BINS: usize>(sides: &[Side; BINS]) -> [(f64, u32); BINS] {
+    let mut rights = [(0.0, 0); BINS];
+    let mut right = Side::EMPTY;
+    for bin in (1..BINS).rev() {
+        right.add(sides[bin]);
+        rights[bin] = (right.cost(), right.count);
+    }
+    rights
 }
 
 /// The box and number of some items: a bin, or all bins on one side of a cut.
 #[derive(Clone, Copy)]
-struct Side {
-    bounds: Box4,
-    count: u32,
+pub(super) struct Side {
+    pub(super) bounds: Box4,
+    pub(super) count: u32,
 }
 
 impl Side {
-    const EMPTY: Self = Self { bounds: Box4::EMPTY, count: 0 };
+    pub(super) const EMPTY: Self = Self { bounds: Box4::EMPTY, count: 0 };
 
     #[inline(always)]
-    fn add(&mut self, o: Self) {
+    pub(super) fn add(&mut self, o: Self) {
         self.bounds = self.bounds.join(o.bounds);
         self.count += o.count;
     }
 
     #[inline(always)]
-    fn cost(&self) -> f64 {
+    pub(super) fn cost(&self) -> f64 {
         self.bounds.half_area() * f64::from(self.count.div_ceil(LEAF_SIZE as u32))
     }
 }

@@ -28,10 +28,49 @@ impl Box4 {
         x * y + y * z + z * x
     }
 
+    #[cfg(test)]
+    pub(super) fn of(bounds: &Aabb) -> Self {
+        let ([x, y, z], [u, v, w]) = (bounds.min, bounds.max);
+        Self { lo: f32x4::new([x, y, z, 0.0]), hi: f32x4::new([u, v, w, 0.0]) }
+    }
+
+    /// The part that both cover; may be empty.
+    #[inline(always)]
+    pub(super) fn intersection(self, o: Self) -> Self {
+        Self { lo: self.lo.fast_max(o.lo), hi: self.hi.fast_min(o.hi) }
+    }
+
+    /// True if no point is inside.
+    #[inline(always)]
+    pub(super) fn is_empty(self) -> bool {
+        self.lo.simd_gt(self.hi).to_bitmask() & 7 != 0
+    }
+
+    /// [`Box4::join`] for a box that may be empty.
+    #[inline(always)]
+    pub(super) fn join_part(self, o: Self) -> Self {
+        if o.is_empty() { self } else { self.join(o) }
+    }
+
+    /// What lies up to a plane across an axis, and what lies from there on.
+    #[inline(always)]
+    pub(super) fn parted(self, axis: usize, at: f32) -> (Self, Self) {
+        let (mut lo, mut hi) = (self.lo.to_array(), self.hi.to_array());
+        lo[axis] = lo[axis].max(at);
+        hi[axis] = hi[axis].min(at);
+        (Self { hi: f32x4::new(hi), ..self }, Self { lo: f32x4::new(lo), ..self })
+    }
+
     pub(super) fn to_aabb(self) -> Aabb {
         let ([x, y, z, _], [u, v, w, _]) = (self.lo.to_array(), self.hi.to_array());
         Aabb { min: [x, y, z], max: [u, v, w] }
     }
+}
+
+/// The axis on which a box is longest; the first of equals.
+pub(super) fn longest_axis(bounds: Box4) -> usize {
+    let size = (bounds.hi - bounds.lo).to_array();
+    (1..3).fold(0, |best, k| if size[k] > size[best] { k } else { best })
 }
 
 /// One primitive: its box, and in the bits of the fourth lanes its number (in `lo`) and kind (in `hi`).
@@ -51,6 +90,11 @@ impl Item {
         let ([x, y, z], [u, v, w]) = (primitive.bounds.min, primitive.bounds.max);
         let (number, kind) = (f32::from_bits(number), f32::from_bits(u32::from(primitive.kind)));
         Self { bounds: Box4 { lo: f32x4::new([x, y, z, number]), hi: f32x4::new([u, v, w, kind]) } }
+    }
+    /// The same primitive with another box.
+    pub(super) fn with_bounds(&self, bounds: Box4) -> Self {
+        let put = |place: f32x4, kept: f32x4| (place & XYZ) | (kept & !XYZ);
+        Self { bounds: Box4 { lo: put(bounds.lo, self.bounds.lo), hi: put(bounds.hi, self.bounds.hi) } }
     }
     pub(super) fn number(&self) -> u32 {
         self.bounds.lo.to_array()[3].to_bits()

@@ -1,9 +1,12 @@
 //! Whole trees: hard inputs, random inputs, and the same bytes for any number of threads.
 
+mod hard;
+mod parts;
+
 use proptest::prelude::*;
 
 use super::*;
-use crate::accel::validate::{TreeStats, validate};
+use crate::accel::validate::{TreeStats, validate, validate_cut};
 
 fn cube(center: [f32; 3], half: f32, kind: u8) -> BuildPrimitive {
     let bounds = Aabb { min: center.map(|c| c - half), max: center.map(|c| c + half) };
@@ -26,10 +29,21 @@ fn soup(count: u32, kinds: u32) -> Vec<BuildPrimitive> {
     (0..count).map(|i| cube(center(i), 0.01 * unit(4 * i + 3), 1 + (noise(i) % kinds) as u8)).collect()
 }
 
+const QUALITIES: [Quality; 3] = [Quality::Fast, Quality::Balanced, Quality::High];
+
+/// The balanced tree, after trees of all qualities proved sound.
 fn sound(primitives: &[BuildPrimitive]) -> (Tree, TreeStats) {
-    let tree = build(primitives);
-    let stats = validate(&tree, primitives).unwrap_or_else(|fault| panic!("{fault}"));
-    (tree, stats)
+    let [_, balanced, _] = sound_trees(primitives, &Uncut);
+    balanced
+}
+
+fn sound_trees(primitives: &[BuildPrimitive], triangles: &impl Cuttable) -> [(Tree, TreeStats); 3] {
+    QUALITIES.map(|quality| {
+        let tree = build(primitives, quality, triangles);
+        let stats = validate_cut(&tree, primitives, triangles);
+        let stats = stats.unwrap_or_else(|fault| panic!("{quality:?}: {fault}"));
+        (tree, stats)
+    })
 }
 
 fn bytes(tree: &Tree) -> Vec<u32> {
@@ -110,13 +124,15 @@ fn the_ends_of_the_number_range_build() {
 #[test]
 fn threads_leave_no_trace() {
     let primitives = soup(GRAIN as u32 * 4 + 777, 3);
-    let with = |threads| {
-        let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
-        pool.install(|| build(&primitives))
-    };
-    let (one, four) = (with(1), with(4));
-    assert!(bytes(&one) == bytes(&four) && one == four);
-    validate(&one, &primitives).unwrap();
+    for quality in QUALITIES {
+        let with = |threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build().unwrap();
+            pool.install(|| build(&primitives, quality, &Uncut))
+        };
+        let (one, four) = (with(1), with(4));
+        assert!(bytes(&one) == bytes(&four) && one == four);
+        validate(&one, &primitives).unwrap();
+    }
 }
 
 /// Parents come before children, subtrees are stretches, and leaves are numbered on the way.
@@ -160,7 +176,7 @@ fn trees_are_well_filled() {
 #[test]
 #[should_panic(expected = "no kind")]
 fn kind_zero_is_refused() {
-    build(&[cube([0.0; 3], 1.0, 0)]);
+    build(&[cube([0.0; 3], 1.0, 0)], Quality::Balanced, &Uncut);
 }
 
 prop_compose! {
@@ -177,7 +193,9 @@ prop_compose! {
 proptest! {
     #[test]
     fn random_soups_of_mixed_kinds_are_sound(primitives in prop::collection::vec(primitive(), 0..400)) {
-        let tree = build(&primitives);
-        prop_assert!(validate(&tree, &primitives).is_ok(), "{:?}", validate(&tree, &primitives));
+        for quality in QUALITIES {
+            let tree = build(&primitives, quality, &Uncut);
+            prop_assert!(validate(&tree, &primitives).is_ok(), "{:?}", validate(&tree, &primitives));
+        }
     }
 }

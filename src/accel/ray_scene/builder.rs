@@ -1,8 +1,8 @@
 //! Vertex and index buffers, spheres and cylinders to a [`RayScene`].
 
 use super::RayScene;
-use crate::accel::Accel;
 use crate::accel::node::ChildRef;
+use crate::accel::{Accel, Quality};
 use crate::geometry::{Geometry, Group, NO_MATERIAL, push3};
 
 /// Collects the primitives of a [`RayScene`].
@@ -139,11 +139,16 @@ impl RaySceneBuilder {
 
     /// Builds the tree, in parallel on the current rayon pool. The result is the same for any number of threads.
     pub fn build(self) -> RayScene {
+        self.build_with(Quality::default())
+    }
+
+    /// [`RaySceneBuilder::build`] with more or less work. Hits are the same, but in tier `Fast`.
+    pub fn build_with(self, quality: Quality) -> RayScene {
         let Self { mut geometry, mesh_start } = self;
         let counts = [geometry.triangles.len(), geometry.spheres.len(), geometry.cylinders.len()];
         let [triangles, spheres, cylinders] = counts.map(|count| 0..count);
         geometry.groups = vec![Group { triangles, spheres, cylinders }];
-        RayScene { accel: Accel::build(&geometry), mesh_start, counts }
+        RayScene { accel: Accel::build_with(&geometry, quality), mesh_start, counts }
     }
 
     fn check_room(&self, more: usize) -> Result<(), RaySceneError> {

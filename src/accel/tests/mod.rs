@@ -1,24 +1,27 @@
 //! Every way through the tree against the plain loop over all primitives, bit for bit.
 
-mod rays;
+pub(super) mod cut;
+mod leaks;
+pub(super) mod rays;
+mod refit;
 mod scenes;
 mod streams;
 
 use proptest::prelude::*;
 use proptest::strategy::ValueTree;
 
-use super::build::{BuildPrimitive, build};
+use super::build::{BuildPrimitive, Cuttable, Quality, build};
 use super::query::Closest;
 use super::ray_scene::lanes;
-use super::validate::validate;
+use super::validate::{TreeFault, TreeStats, validate_cut};
 use super::{Accel, Hint, Traversal, brute};
 use crate::geometry::Geometry;
 use crate::intersect::testing::dice::Dice;
-use crate::intersect::testing::meshes::icosphere;
 use crate::intersect::{Exact, Fast, PrimKind, Ray, RayLanes, Tier, Watertight};
 use crate::math::{BitLane, Lane, Real, WIDTH};
 use scenes::{World, world};
 
+const QUALITIES: [Quality; 3] = [Quality::Fast, Quality::Balanced, Quality::High];
 const HINTS: [Hint; 3] = [Hint::Coherent, Hint::Incoherent, Hint::Auto];
 
 /// A hit as bits: `t`, `u`, `v`, primitive, instance.
@@ -78,8 +81,10 @@ fn check<T: Tier>(geometry: &Geometry, accel: &Accel, rays: &[Ray]) -> usize {
 
 fn check_world<T: Tier>(world: &World, seed: u64) {
     let geometry = world.geometry();
-    let accel = Accel::build(&geometry);
-    check::<T>(&geometry, &accel, &rays::around(&world.landmarks(), &mut Dice(seed), 64));
+    let rays = rays::around(&world.landmarks(), &mut Dice(seed), 64);
+    for quality in QUALITIES {
+        check::<T>(&geometry, &Accel::build_with(&geometry, quality), &rays);
+    }
 }
 
 proptest! {
@@ -116,9 +121,23 @@ proptest! {
 
     #[test]
     fn trees_of_mixed_scenes_are_sound(world in world(200)) {
-        let primitives = primitives(&world.geometry());
-        prop_assert!(validate(&build(&primitives), &primitives).is_ok());
+        for quality in QUALITIES {
+            prop_assert!(sound(&world.geometry(), quality).is_ok(), "{:?}", sound(&world.geometry(), quality));
+        }
     }
+}
+
+impl Cuttable for Geometry {
+    fn corners(&self, primitive: u32) -> Option<[[f32; 3]; 3]> {
+        let row = primitive as usize;
+        (row < self.triangles.len()).then(|| self.triangles.corners(row))
+    }
+}
+
+/// Builds a tree over all primitives but instances and checks it.
+fn sound(geometry: &Geometry, quality: Quality) -> Result<TreeStats, TreeFault> {
+    let primitives = primitives(geometry);
+    validate_cut(&build(&primitives, quality, geometry), &primitives, geometry)
 }
 
 /// All primitives but instances, as the builder sees them.
@@ -196,48 +215,9 @@ fn one_and_four_threads_build_the_same_bytes() {
     let mut world = World::default();
     world.push_mesh(&terrain.positions, &terrain.triangles);
     let geometry = world.geometry();
-    let [one, four] = [1, 4].map(|threads| pool(threads).install(|| Accel::build(&geometry)));
-    assert!(one.nodes == four.nodes && one.world.node == four.world.node);
-    assert_eq!(format!("{:?}", one.triangles), format!("{:?}", four.triangles));
-}
-
-/// No ray gets out of a closed mesh: not through edges, not through vertices, not through the tree.
-#[test]
-fn a_closed_mesh_holds_every_ray_inside() {
-    let mesh = icosphere(4);
-    let mut dice = Dice(17);
-    let (points, center, size) = mesh.placed(&mut dice, 3.0);
-    let triangles: Vec<[u32; 3]> = mesh.triangles.iter().map(|t| t.map(|v| v as u32)).collect();
-    let mut world = World::default();
-    world.push_mesh(&points, &triangles);
-    let accel = Accel::build(&world.geometry());
-    let center = center.get(0);
-    let inside = |dice: &mut Dice| -> [f32; 3] {
-        let offset = dice.point();
-        std::array::from_fn(|k| (center[k] + 0.5 * size * offset[k]) as f32)
-    };
-    let ray = |dice: &mut Dice, i: usize| {
-        let origin = inside(dice);
-        let vertex = points[i % points.len()];
-        let towards =
-            [dice.heading().map(|x| x as f32), std::array::from_fn(|k| vertex[k] - origin[k])][i % 2];
-        Ray::new(origin, towards)
-    };
-    let rays: Vec<Ray> = (0..100_000).map(|i| ray(&mut dice, i)).collect();
-    assert_eq!(leaks::<Watertight>(&accel, &rays), [0; 3]);
-    assert_eq!(leaks::<Exact>(&accel, &rays), [0; 3]);
-}
-
-fn leaks<T: Tier>(accel: &Accel, rays: &[Ray]) -> [usize; 3] {
-    let mut traversal = Traversal::new(accel);
-    HINTS.map(|hint| {
-        let mut missed = |packet: &[Ray]| {
-            let rays = lanes::<T>(packet).expect("rays have directions");
-            let found = traversal.closest::<T>(&rays, hint);
-            let missed = (0..packet.len()).filter(|&i| lane(&found, rays.t_max, i).is_none()).count();
-            missed
-                + (traversal.any::<T>(&rays, hint).count_zeros() as usize).saturating_sub(32 - packet.len())
-        };
-        rays.chunks(WIDTH).map(&mut missed).sum()
-    })
+    for quality in QUALITIES {
+        let [one, four] = [1, 4].map(|n| pool(n).install(|| Accel::build_with(&geometry, quality)));
+        assert!(one.nodes == four.nodes && one.world.node == four.world.node);
+        assert_eq!(format!("{:?}", one.triangles), format!("{:?}", four.triangles));
+    }
 }

@@ -4,7 +4,7 @@ use crate::intersect::Ray;
 use crate::intersect::testing::dice::Dice;
 
 /// Rays around the points that matter in a scene; packets of eight are now alike, now not.
-pub(super) fn around(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> Vec<Ray> {
+pub(in crate::accel) fn around(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> Vec<Ray> {
     let mut rays = Vec::with_capacity(count);
     while rays.len() < count {
         let first = one(landmarks, dice);

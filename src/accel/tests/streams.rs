@@ -2,8 +2,10 @@
 
 use proptest::prelude::*;
 
+use super::QUALITIES;
 use super::scenes::{World, world};
 use super::{Bits, bits, lanes, plainly, rays};
+use crate::accel::build::Quality;
 use crate::accel::stream::{Apex, Bound, HitColumns, RayColumns, RayStream};
 use crate::accel::{Accel, Hint};
 use crate::geometry::Geometry;
@@ -123,8 +125,12 @@ fn with_apex(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> (Vec<Ray>
 }
 
 fn check_world<T: Tier>(world: &World, seed: u64) -> usize {
+    QUALITIES.map(|quality| check_tree::<T>(world, quality, seed)).into_iter().sum()
+}
+
+pub(super) fn check_tree<T: Tier>(world: &World, quality: Quality, seed: u64) -> usize {
     let (geometry, dice) = (world.geometry(), &mut Dice(seed));
-    let accel = Accel::build(&geometry);
+    let accel = Accel::build_with(&geometry, quality);
     let mut hits = check::<T>(&geometry, &accel, &rays::around(&world.landmarks(), dice, 200), None);
     for _ in 0..4 {
         let (rays, apex) = with_apex(&world.landmarks(), dice, 136);

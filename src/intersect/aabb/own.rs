@@ -11,7 +11,8 @@ const PAD_ROUNDOFFS: f64 = 24.0;
 ///
 /// A triangle counts as hit where the edge test accepts it *and* the ray meets its own box; `t` is confined to the
 /// interval inside. Since every box of a tree holds that box with a wider pad, no tree can cull a hit that would have
-/// counted, nor a nearer one: which hit is nearest does not depend on the tree.
+/// counted, nor a nearer one: which hit is nearest does not depend on the tree. For trees that hold triangles in parts
+/// this box is too large to tell; there the hit itself lies at the triangle (`triangle::near`).
 #[derive(Clone, Copy, Debug)]
 pub struct OwnBox<L> {
     origin: Vec3<L>,
@@ -27,11 +28,16 @@ impl<L: Lane> OwnBox<L> {
         Self { origin, reciprocal: safe_reciprocal(direction), reach }
     }
 
+    /// The largest coordinate of the ray's origin plus that of the boxes: what roundoffs are relative to.
+    #[inline(always)]
+    pub fn magnitude(&self, lo: Vec3<L>, hi: Vec3<L>) -> L {
+        self.reach + lo.abs().max(hi.abs()).max_component()
+    }
+
     /// Where the rays are inside the boxes, first and last `t`; empty where first is beyond last.
     #[inline(always)]
     pub fn interval(&self, lo: Vec3<L>, hi: Vec3<L>) -> (L, L) {
-        let size = lo.abs().max(hi.abs()).max_component();
-        let pad = (self.reach + size) * L::constant(PAD_ROUNDOFFS * <L::Scalar as Real>::ROUNDOFF);
+        let pad = self.magnitude(lo, hi) * L::constant(PAD_ROUNDOFFS * <L::Scalar as Real>::ROUNDOFF);
         let slab = |lo: L, hi: L, o: L, r: L| {
             let (a, b) = ((lo - o - pad) * r, (hi - o + pad) * r);
             (a.min(b), a.max(b))

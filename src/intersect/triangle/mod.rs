@@ -1,13 +1,14 @@
 //! Ray against triangle.
 
 mod moller_trumbore;
+mod near;
 pub mod oracle;
 mod woop;
 
 pub use moller_trumbore::MollerTrumbore;
 pub use woop::Woop;
 
-use crate::math::{Aabb, Lane, Vec3};
+use crate::math::{Aabb, Lane, Vec3, three};
 
 /// Where the line of a ray meets the plane of a triangle: `(t, u, v)`, not finite where it does not.
 ///
@@ -23,8 +24,9 @@ fn plane_coordinates<L: Lane>(origin: Vec3<L>, direction: Vec3<L>, [v0, v1, v2]:
 }
 
 /// The box of a triangle, exact.
-pub fn bounds(corners: [[f32; 3]; 3]) -> Aabb {
-    corners.into_iter().fold(Aabb::EMPTY, Aabb::join_point)
+#[inline]
+pub fn bounds([a, b, c]: [[f32; 3]; 3]) -> Aabb {
+    Aabb { min: three(|k| a[k].min(b[k]).min(c[k])), max: three(|k| a[k].max(b[k]).max(c[k])) }
 }
 
 #[cfg(test)]

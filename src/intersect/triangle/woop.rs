@@ -8,9 +8,10 @@
 //! - a hit must also lie in the triangle's own box ([`OwnBox`]): far from a triangle that is small for the precision,
 //!   the edge functions alone round to nonsense;
 //! - `t, u, v` of accepted lanes come from the plane in `f64`, because those of the sheared `f32` form lose up to 1% on
-//!   short rays; `t` is confined to the own box.
+//!   short rays; `t` is confined to the own box;
+//! - the point so found must be one of the triangle within rounding, else [`near`] finds the one that is.
 
-use super::plane_coordinates;
+use super::{near, plane_coordinates};
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, three};
@@ -163,7 +164,7 @@ impl<R: Real> OneShear<R> {
     }
 }
 
-/// Of the lanes that passed the edges, those that meet the triangle's own box, with where.
+/// Of the lanes that passed the edges, those that meet the triangle's own box, with where at the triangle.
 #[inline(always)]
 fn within_own_box<L: Lane>(
     mask: L::Mask,
@@ -178,8 +179,13 @@ fn within_own_box<L: Lane>(
     if !mask.any() {
         return LaneHit::none();
     }
-    let (t, u, v) = refine(ray, v);
-    LaneHit { mask, t: t.clamp(first, last), u, v }
+    let (t, at_u, at_v) = refine(ray, v);
+    let hit = LaneHit { mask, t: t.clamp(first, last), u: at_u, v: at_v };
+    let doubtful = mask & !near::at_glance(ray, v, &hit, own.magnitude(lo, hi));
+    if doubtful.any() {
+        return near::settle(ray, v, (first, last), hit, doubtful);
+    }
+    hit
 }
 
 /// Lanes whose rays pass on the same side of the three edges, or on one; from the corners' coordinates across the ray.
@@ -196,7 +202,7 @@ fn inside_edges<L: Lane>([(ax, ay), (bx, by), (cx, cy)]: [(L, L); 3]) -> L::Mask
 }
 
 /// `t, u, v` in `f64`. A plane seen exactly edge-on gives no finite `t`: then any `t` inside the own box will do, and
-/// the caller's clamp picks its first (NaN becomes the lower bound).
+/// the caller's clamp picks its first (NaN becomes the lower bound), which is then held against the triangle.
 #[inline(always)]
 fn refine<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> (L, L, L) {
     let (t, u, v) = plane_coordinates(ray.origin.widen(), ray.direction.widen(), three(|k| v[k].widen()));

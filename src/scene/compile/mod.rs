@@ -80,7 +80,7 @@ impl Scene {
         let requirements =
             Requirements::of(&geometry, &materials, &lights, &camera, settings.max_depth, weights);
         let load = start.elapsed();
-        let accel = Accel::build(&geometry);
+        let accel = Accel::build_with(&geometry, settings.build_quality);
         let times = CompileTimes { load, build: start.elapsed() - load };
         let background = Background::of(description);
         Ok(Self {

@@ -1,6 +1,7 @@
 //! Camera, lights, background and settings.
 
 use super::CompileError;
+use crate::accel::Quality;
 use crate::describe::{self, CameraKind, FilterKind, Handedness, SceneDescription};
 use crate::film::{Tone, ToneCurve};
 use crate::intersect::TierName;
@@ -99,6 +100,11 @@ impl RenderSettings {
                 describe::Tier::Fast => TierName::Fast,
                 describe::Tier::Watertight => TierName::Watertight,
                 describe::Tier::Exact => TierName::Exact,
+            },
+            build_quality: match r.build_quality {
+                describe::BuildQuality::Fast => Quality::Fast,
+                describe::BuildQuality::Balanced => Quality::Balanced,
+                describe::BuildQuality::High => Quality::High,
             },
             sampler: match r.sampler {
                 describe::Sampler::Random => SamplerKind::Random,

@@ -1,0 +1,140 @@
+//! The binary tree with spatial splits: near the root, where boxes overlap, triangles are cut; below, [`super::binary`].
+//!
+//! **Source:** Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", 2009. Changed: a budget
+//! bounds the references that cuts may add; the halves of a range share what is left by their lengths.
+
+use super::binary::{self, BinaryNode};
+use super::bins::best_cut_and_overlap;
+use super::cut::Cuttable;
+use super::item::{Extent, Item};
+use super::slab::best_slab;
+use super::split::{halvings, part_by};
+use super::{LEAF_SIZE, MAX_DEPTH, Quality};
+
+/// Cutting is tried where the halves of the best split without it overlap by more than this share of the whole tree, and
+/// in ranges of at least so many items. With 1e-5 and 9 a tree over Sponza takes half as long again to build and rays
+/// visit no less of it.
+const LEAST_OVERLAP: f64 = 1e-4;
+const LEAST_ITEMS: usize = 32;
+
+/// Ranges from this length on are shared by two tasks.
+const GRAIN: usize = 1 << 12;
+
+/// Nodes and items of a subtree, depth-first.
+#[derive(Default)]
+struct Grown {
+    nodes: Vec<BinaryNode>,
+    items: Vec<Item>,
+}
+
+/// The nodes over all items, and the items in the order of the leaves; `budget` references may be added.
+pub(super) fn grow(
+    items: Vec<Item>,
+    budget: usize,
+    triangles: &impl Cuttable,
+) -> (Vec<BinaryNode>, Vec<Item>) {
+    if items.is_empty() {
+        return Default::default();
+    }
+    let whole = Extent::of(&items).bounds.half_area();
+    let grower = Grower { triangles, least_overlap: LEAST_OVERLAP * whole };
+    let mut grown = grower.grow(items, budget, 0);
+    number(&mut grown.nodes);
+    (grown.nodes, grown.items)
+}
+
+struct Grower<'a, C> {
+    triangles: &'a C,
+    least_overlap: f64,
+}
+
+impl<C: Cuttable> Grower<'_, C> {
+    fn grow(&self, items: Vec<Item>, budget: usize, depth: u32) -> Grown {
+        let mut grown = Grown::default();
+        self.grow_onto(&mut grown, items, budget, depth);
+        grown
+    }
+
+    fn grow_onto(&self, grown: &mut Grown, mut items: Vec<Item>, budget: usize, depth: u32) {
+        // Enough levels must remain for halving, also of what is added.
+        let deep = depth + halvings(items.len() + budget) + 1 >= MAX_DEPTH;
+        if items.len() <= LEAF_SIZE || budget == 0 || deep {
+            binary::grow_onto(&mut grown.nodes, &mut items, depth, Quality::High);
+            grown.items.append(&mut items);
+            return;
+        }
+        let extent = Extent::of(&items);
+        let at = grown.nodes.len();
+        grown.nodes.push(BinaryNode::leaf(&extent, 0, items.len()));
+        let [low, high] = self.part(items, &extent, budget);
+        let len = low.len() + high.len();
+        let left = budget.saturating_sub(len - grown.nodes[at].len as usize);
+        let share = (left as u128 * low.len() as u128 / len as u128) as usize;
+        let shares = [share, left - share];
+        if len > GRAIN {
+            let (low, high) = rayon::join(
+                || self.grow(low, shares[0], depth + 1),
+                || self.grow(high, shares[1], depth + 1),
+            );
+            grown.append(low);
+            grown.nodes[at].right = (grown.nodes.len() - at) as u32;
+            grown.append(high);
+        } else {
+            self.grow_onto(grown, low, shares[0], depth + 1);
+            grown.nodes[at].right = (grown.nodes.len() - at) as u32;
+            self.grow_onto(grown, high, shares[1], depth + 1);
+        }
+    }
+
+    /// The two sides of a range: by a plane that cuts if that is cheaper and within the budget.
+    fn part(&self, mut items: Vec<Item>, extent: &Extent, budget: usize) -> [Vec<Item>; 2] {
+        let (cut, overlap) = best_cut_and_overlap(&items, extent);
+        let worth = cut.filter(|_| items.len() >= LEAST_ITEMS && overlap > self.least_overlap);
+        if let Some(sides) = worth.and_then(|cut| self.part_space(&items, extent, budget, cut.cost)) {
+            return sides;
+        }
+        let middle = part_by(&mut items, extent, cut);
+        let high = items.split_off(middle);
+        [items, high]
+    }
+
+    /// The two sides of a plane that cuts what crosses it, for less than `beaten` and within the budget.
+    fn part_space(
+        &self,
+        items: &[Item],
+        extent: &Extent,
+        budget: usize,
+        beaten: f64,
+    ) -> Option<[Vec<Item>; 2]> {
+        let slab = best_slab(items, extent, self.triangles)?;
+        if slab.cost >= beaten || slab.extra(items.len()) > budget {
+            return None;
+        }
+        let sides = slab.part(items, self.triangles);
+        let len = sides[0].len() + sides[1].len();
+        let sound = sides.iter().all(|side| !side.is_empty()) && len <= items.len() + budget;
+        sound.then_some(sides)
+    }
+}
+
+impl Grown {
+    fn append(&mut self, mut o: Self) {
+        self.nodes.append(&mut o.nodes);
+        self.items.append(&mut o.items);
+    }
+}
+
+/// Sets ranges to where the items ended up: leaves hold them one after the other.
+fn number(nodes: &mut [BinaryNode]) {
+    for at in (0..nodes.len()).rev() {
+        let right = nodes[at].right as usize;
+        if right != 0 {
+            nodes[at].len = nodes[at + 1].len + nodes[at + right].len;
+        }
+    }
+    let mut next = 0;
+    for node in nodes {
+        node.first = next;
+        next += if node.right == 0 { node.len } else { 0 };
+    }
+}
