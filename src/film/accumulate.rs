@@ -40,7 +40,11 @@ impl<const C: usize> BlockNode<C> {
 
 #[inline(always)]
 fn plus<const C: usize>(a: [f32; C], b: [f32; C]) -> [f32; C] {
-    std::array::from_fn(|k| a[k] + b[k])
+    let mut sum = a;
+    for (sum, b) in sum.iter_mut().zip(b) {
+        *sum += b;
+    }
+    sum
 }
 
 /// Two ranges of blocks that do not meet.

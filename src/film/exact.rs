@@ -3,7 +3,7 @@
 //! Contributions to a sample come in any order (queues, chunks, packets). Each is rounded to a multiple of 2^-30 once;
 //! sums of such multiples are exact in `f64` up to 2^23, and exact sums are the same in any order.
 
-use crate::math::{Lane, Mask, Vec3, WIDTH};
+use crate::math::{Lane, Mask, Vec3, WIDTH, three};
 
 /// Largest magnitude of one contribution: 64 of the largest still sum exactly.
 pub const CONTRIBUTION_LIMIT: f32 = 131_072.0;
@@ -60,7 +60,8 @@ impl SampleSums {
     /// The radiance of a sample.
     #[inline(always)]
     pub fn rgb(&self, sample: usize) -> [f32; 3] {
-        self.sums[sample].map(|c| c as f32)
+        let sum = &self.sums[sample];
+        three(|c| sum[c] as f32)
     }
 
     /// Contributions left out since the last reset because they were not numbers.

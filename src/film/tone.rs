@@ -7,6 +7,7 @@ use std::str::FromStr;
 
 use super::image::{Film, Rgb8};
 use super::srgb::SrgbTable;
+use crate::math::three;
 
 /// How far exposure may go, either way, in stops.
 const MAX_STOPS: f32 = 64.0;
@@ -91,8 +92,8 @@ fn encode(pixels: &[[f32; 3]], tone: Tone, bytes: &mut Vec<u8>, curve: impl Fn([
     let mut nan_values = 0;
     for pixel in pixels {
         nan_values += pixel.iter().filter(|value| value.is_nan()).count() as u64;
-        let light = pixel.map(|value| expose(value, gain));
-        bytes.extend(curve(light).map(|value| table.encode(value)));
+        let light = curve(three(|c| expose(pixel[c], gain)));
+        bytes.extend_from_slice(&three(|c| table.encode(light[c])));
     }
     nan_values
 }

@@ -6,7 +6,7 @@ use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
 use crate::geometry::gather3;
 use crate::intersect::Tier;
-use crate::math::{Lane, Vec3, WIDTH, eight};
+use crate::math::{Lane, Vec3, WIDTH};
 
 /// Adds what missing paths see.
 pub(super) fn background<T: Tier>(
@@ -17,11 +17,11 @@ pub(super) fn background<T: Tier>(
 ) {
     for at in (0..hits.misses.len()).step_by(WIDTH) {
         let (rows, lanes) = list_lanes(&hits.misses, at);
-        let paths = eight(|i| rows[i] + first as u32);
+        let paths = rows.offset(first);
         let direction = queue.direction.gather::<T::Wide>(&paths);
         let seen = worker.frame.scene.background.radiance(direction);
         let radiance = queue.throughput.gather::<T::Wide>(&paths).scale(seen);
-        worker.radiance.add(&eight(|i| queue.slot[paths[i] as usize]), radiance, lanes);
+        worker.radiance.add(&paths.map(|path| queue.slot[path]), radiance, lanes);
     }
 }
 

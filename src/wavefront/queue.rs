@@ -35,13 +35,9 @@ impl<'a, R: Real> Column3<'a, R> {
     }
     /// The rows named by `rows`.
     #[inline(always)]
-    pub(super) fn gather<L: Lane<Scalar = R>>(&self, rows: &[u32; WIDTH]) -> Vec3<L> {
-        if is_run(rows) {
-            return self.load(rows[0] as usize);
-        }
+    pub(super) fn gather<L: Lane<Scalar = R>>(&self, rows: &Rows) -> Vec3<L> {
         let [x, y, z] = &self.0;
-        let one = |column: &[R]| L::from_fn(|i| column[rows[i] as usize]);
-        Vec3::new(one(x), one(y), one(z))
+        Vec3::new(gather(x, rows), gather(y, rows), gather(z, rows))
     }
     /// Overwrites eight rows from `at` on.
     #[inline(always)]
@@ -94,19 +90,39 @@ pub(super) fn set_bits(bits: u32) -> impl Iterator<Item = usize> {
     })
 }
 
-/// True if the rows follow each other, as they do where neighbours hit the same: then they load as they lie.
-#[inline(always)]
-pub(super) fn is_run(rows: &[u32; WIDTH]) -> bool {
-    *rows == eight(|i| rows[0].wrapping_add(i as u32))
+/// Eight rows of columns.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Rows {
+    pub(super) number: [u32; WIDTH],
+    /// They follow each other, as they do where neighbours hit the same: then they load as they lie.
+    is_run: bool,
 }
 
-/// The rows of a column named by `rows`.
-#[inline(always)]
-pub(super) fn gather<L: Lane>(column: &[L::Scalar], rows: &[u32; WIDTH]) -> L {
-    if is_run(rows) {
-        return L::load(&column[rows[0] as usize..]);
+impl Rows {
+    #[inline(always)]
+    pub(super) fn new(number: [u32; WIDTH]) -> Self {
+        let is_run = number == eight(|i| number[0].wrapping_add(i as u32));
+        Self { number, is_run }
     }
-    L::from_fn(|i| column[rows[i] as usize])
+    /// The rows that lie `by` further on.
+    #[inline(always)]
+    pub(super) fn offset(self, by: usize) -> Self {
+        Self { number: eight(|i| self.number[i] + by as u32), ..self }
+    }
+    /// The numbers.
+    #[inline(always)]
+    pub(super) fn map<T>(&self, mut f: impl FnMut(usize) -> T) -> [T; WIDTH] {
+        eight(|i| f(self.number[i] as usize))
+    }
+}
+
+/// The rows of a column.
+#[inline(always)]
+pub(super) fn gather<L: Lane>(column: &[L::Scalar], rows: &Rows) -> L {
+    if rows.is_run {
+        return L::load(&column[rows.number[0] as usize..]);
+    }
+    L::from_fn(|i| column[rows.number[i] as usize])
 }
 
 /// Words of eight rows from `at` on.
@@ -117,13 +133,13 @@ pub(super) fn words(column: &[u32], at: usize) -> &[u32; WIDTH] {
 
 /// Eight entries of a list from `at` on; the last entry stands in for those beyond the end. Also the lanes that count.
 #[inline(always)]
-pub(super) fn list_lanes(list: &[u32], at: usize) -> ([u32; WIDTH], u32) {
+pub(super) fn list_lanes(list: &[u32], at: usize) -> (Rows, u32) {
     let rest = &list[at..];
     if let Some(full) = rest.first_chunk::<WIDTH>() {
-        return (*full, 0xff);
+        return (Rows::new(*full), 0xff);
     }
     let last = rest.len() - 1;
-    (eight(|i| rest[i.min(last)]), (1 << rest.len()) - 1)
+    (Rows::new(eight(|i| rest[i.min(last)])), (1 << rest.len()) - 1)
 }
 
 /// Paths of one depth.
@@ -212,7 +228,11 @@ mod tests {
 
     #[test]
     fn the_last_entry_stands_in_beyond_a_list() {
-        assert_eq!(list_lanes(&[4, 9, 2], 0), ([4, 9, 2, 2, 2, 2, 2, 2], 0b111));
-        assert_eq!(list_lanes(&[0, 1, 2, 3, 4, 5, 6, 7, 8], 0), ([0, 1, 2, 3, 4, 5, 6, 7], 0xff));
+        let eight = |list: &[u32]| {
+            let (rows, lanes) = list_lanes(list, 0);
+            (rows.number, rows.is_run, lanes)
+        };
+        assert_eq!(eight(&[4, 9, 2]), ([4, 9, 2, 2, 2, 2, 2, 2], false, 0b111));
+        assert_eq!(eight(&[2, 3, 4, 5, 6, 7, 8, 9, 1]), ([2, 3, 4, 5, 6, 7, 8, 9], true, 0xff));
     }
 }

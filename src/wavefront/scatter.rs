@@ -2,7 +2,7 @@
 
 use super::medium::{enter, found_inside, innermost, leave};
 use super::offset::offset_along;
-use super::queue::{PathLanes, PathQueue, gather as column_rows, list_lanes};
+use super::queue::{PathLanes, PathQueue, Rows, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
 use crate::geometry::gather3;
@@ -55,14 +55,15 @@ pub(super) fn scatter<T: Tier>(
 fn gather<T: Tier>(
     worker: &Worker<T>,
     surfaces: &SurfaceQueue<T::Real>,
-    rows: &[u32; WIDTH],
+    rows: &Rows,
     lanes: u32,
 ) -> Lanes<T::Wide> {
     let scene = worker.frame.scene;
-    let materials = eight(|i| surfaces.material(rows[i]));
+    let materials = rows.map(|row| surfaces.material(row));
     let tint = gather3::<T::Wide>(&scene.materials.tint, &materials);
     let weight = surfaces.throughput.gather::<T::Wide>(rows).scale(tint);
-    let inside = (0..WIDTH).map(|i| surfaces.from_inside[rows[i] as usize] << i).sum();
+    let inside = rows.map(|row| surfaces.from_inside[row]);
+    let inside = (0..WIDTH).map(|i| inside[i] << i).sum();
     let bright = weight.max_component().ge(T::Wide::constant(scene.settings.min_throughput));
     Lanes {
         point: surfaces.point.gather(rows),
@@ -72,8 +73,8 @@ fn gather<T: Tier>(
         direction: surfaces.direction.gather(rows),
         weight,
         materials,
-        slot: eight(|i| surfaces.slot(rows[i])),
-        path: eight(|i| surfaces.path[rows[i] as usize]),
+        slot: rows.map(|row| surfaces.slot(row)),
+        path: rows.map(|row| surfaces.path[row]),
         from_inside: Mask::from_bits(inside),
         lanes: lanes & bright.bits(),
     }

@@ -4,7 +4,7 @@ use bumpalo::Bump;
 
 use super::extend::{Hits, KINDS};
 use super::queue::{
-    Column3, PathQueue, column, compress, compress_words, gather, list_lanes, set_bits, words,
+    Column3, PathQueue, Rows, column, compress, compress_words, gather, list_lanes, set_bits, words,
 };
 use super::surface::{HitLanes, SurfaceLanes, evaluate};
 use crate::geometry::{NO_MATERIAL, gather3};
@@ -71,7 +71,7 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         for (kind, list) in KINDS.into_iter().zip(&hits.by_kind) {
             for at in (0..list.len()).step_by(WIDTH) {
                 let (rows, lanes) = list_lanes(list, at);
-                let paths = eight(|i| rows[i] + first as u32);
+                let paths = rows.offset(first);
                 let hit = gather_hits::<L>(queue, &paths, hits, &rows);
                 let surface = evaluate(&scene.geometry, kind, &hit);
                 let materials = eight(|i| material_of(scene, kind, hit.row[i], hit.instance[i]));
@@ -92,7 +92,7 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         queue: &PathQueue<R>,
         hit: &HitLanes<L>,
         surface: SurfaceLanes<L>,
-        paths: &[u32; WIDTH],
+        paths: &Rows,
         materials: &[u32; WIDTH],
         lanes: u32,
     ) {
@@ -111,9 +111,9 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
             let plain = gather3::<L>(&scene.materials.diffuse, materials);
             diffuse.compress(at, plain.scale(texture_color(scene, materials, surface.uv)), lanes);
         }
-        compress_words(self.slot, at, &eight(|i| queue.slot[paths[i] as usize]), lanes);
+        compress_words(self.slot, at, &paths.map(|path| queue.slot[path]), lanes);
         compress_words(self.material, at, materials, lanes);
-        compress_words(self.path, at, paths, lanes);
+        compress_words(self.path, at, &paths.number, lanes);
         let inside = inside.bits();
         compress_words(self.from_inside, at, &eight(|i| inside >> i & 1), lanes);
         if scene.requirements.children() > 0 {
@@ -147,12 +147,12 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         words(self.material, at)
     }
     /// Material row of a row.
-    pub(super) fn material(&self, row: u32) -> u32 {
-        self.material[row as usize]
+    pub(super) fn material(&self, row: usize) -> u32 {
+        self.material[row]
     }
     /// Slot of a row.
-    pub(super) fn slot(&self, row: u32) -> u32 {
-        self.slot[row as usize]
+    pub(super) fn slot(&self, row: usize) -> u32 {
+        self.slot[row]
     }
     /// Diffuse coefficients of eight rows.
     #[inline(always)]
@@ -167,9 +167,9 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
 #[inline(always)]
 fn gather_hits<L: Lane>(
     queue: &PathQueue<L::Scalar>,
-    paths: &[u32; WIDTH],
+    paths: &Rows,
     hits: &Hits<L::Scalar>,
-    rows: &[u32; WIDTH],
+    rows: &Rows,
 ) -> HitLanes<L> {
     HitLanes {
         origin: queue.origin.gather(paths),
@@ -177,8 +177,8 @@ fn gather_hits<L: Lane>(
         t: gather(hits.t, rows),
         u: gather(hits.u, rows),
         v: gather(hits.v, rows),
-        row: eight(|i| PrimId(hits.prim[rows[i] as usize]).row() as u32),
-        instance: eight(|i| hits.instance.get(rows[i] as usize).copied().unwrap_or(0)),
+        row: rows.map(|row| PrimId(hits.prim[row]).row() as u32),
+        instance: rows.map(|row| hits.instance.get(row).copied().unwrap_or(0)),
     }
 }
 
