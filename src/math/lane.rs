@@ -171,4 +171,8 @@ pub trait Real: Lane<Scalar = Self, Mask = bool, Bits = u32, Double = f64> + Par
     fn to_f32(self) -> f32;
     /// Exact.
     fn from_f32(value: f32) -> Self;
+    /// Stored `f32` as they are, if that is this type.
+    fn of_f32(values: &[f32]) -> Option<&[Self]>;
+    /// The same, to be written.
+    fn of_f32_mut(values: &mut [f32]) -> Option<&mut [Self]>;
 }

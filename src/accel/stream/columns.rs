@@ -2,7 +2,7 @@
 
 use crate::accel::query::Closest;
 use crate::intersect::RayLanes;
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
+use crate::math::{BitLane, Lane, Mask, Real, Vec3, WIDTH};
 
 /// A bound of `t` that is the same for all rays, or a column of its own.
 #[derive(Clone, Copy, Debug)]
@@ -18,7 +18,7 @@ impl<R: Real> Bound<'_, R> {
     fn load<L: Lane<Scalar = R>>(&self, at: usize) -> L {
         match self {
             Self::All(t) => L::splat(*t),
-            Self::Each(column) => L::load(&column[at..]),
+            Self::Each(column) => load(column, at),
         }
     }
     #[inline(always)]
@@ -32,8 +32,7 @@ impl<R: Real> Bound<'_, R> {
 
 /// Rays as columns.
 ///
-/// **Shape:** columns hold at least `len` rows rounded up to the packet width; what stands in the rows beyond `len` is
-/// not asked. **Needs:** rays whose `t_max` is not minus infinity are finite and have a direction.
+/// **Shape:** columns hold at least `len` rows; what stands in the rows beyond is not asked. **Needs:** rays whose `t_max` is not minus infinity are finite and have a direction.
 #[derive(Clone, Copy, Debug)]
 pub struct RayColumns<'a, R> {
     /// How many rays.
@@ -82,7 +81,21 @@ impl<R: Real> RayColumns<'_, R> {
 
 #[inline(always)]
 fn load3<L: Lane>(columns: &[&[L::Scalar]; 3], at: usize) -> Vec3<L> {
-    Vec3::new(L::load(&columns[0][at..]), L::load(&columns[1][at..]), L::load(&columns[2][at..]))
+    Vec3::new(load(columns[0], at), load(columns[1], at), load(columns[2], at))
+}
+
+/// Eight rows from `at` on; the last row stands in for those beyond the end.
+#[inline(always)]
+fn load<L: Lane>(column: &[L::Scalar], at: usize) -> L {
+    if at + WIDTH <= column.len() {
+        return L::load(&column[at..]);
+    }
+    load_last(column, at)
+}
+
+#[cold]
+fn load_last<L: Lane>(column: &[L::Scalar], at: usize) -> L {
+    L::from_fn(|i| column[(at + i).min(column.len() - 1)])
 }
 
 /// Nearest hits as columns.
@@ -107,12 +120,27 @@ impl<R: Real> HitColumns<'_, R> {
     /// Writes what eight rays from row `at` on found.
     #[inline(always)]
     pub(super) fn store<L: Lane<Scalar = R, Bits = wide::u32x8>>(&mut self, at: usize, found: &Closest<L>) {
+        if at + WIDTH > self.t.len() {
+            return self.store_last(at, found);
+        }
         found.t.store(&mut self.t[at..]);
         found.u.store(&mut self.u[at..]);
         found.v.store(&mut self.v[at..]);
         self.prim[at..at + WIDTH].copy_from_slice(&found.prim.to_array());
         if let Some(instance) = self.instance.get_mut(at..at + WIDTH) {
             instance.copy_from_slice(&found.instance.to_array());
+        }
+    }
+
+    /// The same at the end of columns without padding.
+    #[cold]
+    fn store_last<L: Lane<Scalar = R, Bits = wide::u32x8>>(&mut self, at: usize, found: &Closest<L>) {
+        for (i, row) in (at..self.t.len()).enumerate() {
+            (self.t[row], self.u[row], self.v[row]) = (found.t.get(i), found.u.get(i), found.v.get(i));
+            self.prim[row] = BitLane::get(found.prim, i);
+            if let Some(instance) = self.instance.get_mut(row) {
+                *instance = BitLane::get(found.instance, i);
+            }
         }
     }
 

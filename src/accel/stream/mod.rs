@@ -16,7 +16,7 @@ use super::leaf::TestRays;
 use super::query::{AnyHit, Closest, Query};
 use super::traversal::{Hint, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
-use crate::math::WIDTH;
+use crate::math::{Lane, Vec3, WIDTH};
 use bundle::{Bundle, Stacks};
 use flight::Flight;
 use frustum::Frustum;
@@ -105,14 +105,20 @@ impl<T: Tier> Answers<T> for Occluded<'_> {
 
 /// What is asked of a stream, by packets and by single rays.
 struct Asked<T: Tier, Q, O> {
-    queries: Vec<Q>,
+    queries: Box<[Q; BUNDLE]>,
     flight: Flight<T, O>,
 }
 
-impl<T: Tier, Q, O: Query<T::Real> + Copy> Asked<T, Q, O> {
-    fn new(accel: &Accel) -> Self {
-        Self { queries: Vec::with_capacity(BUNDLE), flight: Flight::new(accel) }
+impl<T: Tier, Q: Copy, O: Query<T::Real> + Copy> Asked<T, Q, O> {
+    fn new(accel: &Accel, ask: impl Fn(&RayLanes<T::Wide>) -> Q) -> Self {
+        Self { queries: Box::new([ask(&no_rays()); BUNDLE]), flight: Flight::new(accel) }
     }
+}
+
+/// Rays that ask nothing.
+fn no_rays<L: Lane>() -> RayLanes<L> {
+    let (zero, off) = (Vec3::zero(), L::constant(f64::NEG_INFINITY));
+    RayLanes { origin: zero, direction: zero, t_min: L::zero(), t_max: off }
 }
 
 /// Room for each of the questions.
@@ -134,7 +140,10 @@ impl<'a, T: Tier> RayStream<'a, T> {
     pub fn new(accel: &'a Accel) -> Self {
         Self {
             bundles: Bundles::new(accel),
-            scratch: Scratch { closest: Asked::new(accel), any: Asked::new(accel) },
+            scratch: Scratch {
+                closest: Asked::new(accel, |rays| Closest::new(rays.t_max)),
+                any: Asked::new(accel, |rays| AnyHit::new(rays.t_max)),
+            },
             alone: Vec::new(),
         }
     }
@@ -177,7 +186,7 @@ impl<'a, T: Tier> RayStream<'a, T> {
 struct Bundles<'a, T: Tier> {
     accel: &'a Accel,
     traversal: Traversal<'a>,
-    rays: Vec<RayLanes<T::Wide>>,
+    rays: Box<[RayLanes<T::Wide>; BUNDLE]>,
     prepared: Box<[Option<TestRays<T>>; BUNDLE]>,
     /// Bundles to come that are not tried.
     rest: usize,
@@ -188,7 +197,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
         Self {
             accel,
             traversal: Traversal::new(accel),
-            rays: Vec::with_capacity(BUNDLE),
+            rays: Box::new([no_rays(); BUNDLE]),
             prepared: Box::new([const { None }; BUNDLE]),
             rest: 0,
         }
@@ -200,17 +209,17 @@ impl<'a, T: Tier> Bundles<'a, T> {
         rays: &RayColumns<T::Real>,
         first: usize,
         (apex, hint): (Option<Apex>, Hint),
-        queries: &mut Vec<A::Query>,
+        queries: &mut [A::Query; BUNDLE],
         answers: &mut A,
         alone: &mut Vec<u32>,
     ) {
         let end = rays.len.min(first + BUNDLE * WIDTH);
-        self.rays.clear();
-        queries.clear();
-        for at in (first..end).step_by(WIDTH) {
-            self.rays.push(rays.load::<T::Wide>(at));
-            queries.push(A::ask(&self.rays[self.rays.len() - 1]));
+        let count = (end - first).div_ceil(WIDTH);
+        for (j, at) in (first..end).step_by(WIDTH).enumerate() {
+            self.rays[j] = rays.load::<T::Wide>(at);
+            queries[j] = A::ask(&self.rays[j]);
         }
+        let queries = &mut queries[..count];
         if !self.accel.planes.is_empty() {
             for (rays, query) in self.rays.iter().zip(queries.iter_mut()) {
                 ask_planes(self.accel, rays, query);
@@ -242,7 +251,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             self.rest -= 1;
             return false;
         }
-        let Some(mut frustum) = Frustum::around::<T>(&self.rays, apex, world.scale) else { return false };
+        let Some(mut frustum) = Frustum::around::<T>(&self.rays[..queries.len()], apex, world.scale) else { return false };
         for (j, query) in queries.iter().enumerate() {
             frustum.look(j, T::above_f32(query.limit()));
         }
@@ -250,7 +259,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
         self.prepared.fill(None);
         let stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
-        let rays = &self.rays;
+        let rays = &self.rays[..queries.len()];
         let mut bundle = Bundle { frustum, rays, prepared: &mut self.prepared, queries, met: 0 };
         let done = bundle.descend(self.accel, world.node, stacks);
         self.rest = if done { 0 } else { REST };

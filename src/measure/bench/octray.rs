@@ -94,6 +94,14 @@ impl<R: Real> Wave<R> {
         len
     }
 
+    /// Gives the hits back.
+    fn store(&self, t: &mut [f32], prim: &mut [u32]) {
+        for (i, (t, prim)) in t.iter_mut().zip(prim).enumerate() {
+            *t = self.t[i].to_f32();
+            *prim = if self.t[i] < self.t_max[i] { self.prim[i] } else { NO_HIT };
+        }
+    }
+
     /// The rays, and room for their hits.
     fn split(&mut self, len: usize) -> (stream::RayColumns<'_, R>, stream::HitColumns<'_, R>) {
         let rays = stream::RayColumns {
@@ -114,17 +122,41 @@ impl<R: Real> Wave<R> {
     }
 }
 
+/// The columns as they are, where they are of a tier's number type.
+fn as_they_are<'r, R: Real>(rays: &RayColumns<'r>) -> Option<stream::RayColumns<'r, R>> {
+    let three = |c: [&'r [f32]; 3]| Some([R::of_f32(c[0])?, R::of_f32(c[1])?, R::of_f32(c[2])?]);
+    Some(stream::RayColumns {
+        len: rays.len(),
+        origin: three(rays.origin)?,
+        direction: three(rays.direction)?,
+        t_min: Bound::Each(R::of_f32(rays.t_min)?),
+        t_max: Bound::Each(R::of_f32(rays.t_max)?),
+    })
+}
+
 /// Streams of rays, as the renderer sends them.
 impl<T: Tier> Octray<'_, T> {
     fn closest_in_streams(&self, rays: &RayColumns<'_>, hits: &mut HitColumns<'_>) {
-        let (mut stream, mut wave) = (RayStream::<T>::new(self.accel), Wave::new());
+        let mut stream = RayStream::<T>::new(self.accel);
+        let (mut wave, mut u, mut v) = (Wave::new(), [T::Real::default(); WAVE], [T::Real::default(); WAVE]);
         for first in (0..rays.len()).step_by(WAVE) {
-            let len = wave.load(rays, first);
-            let (columns, mut found) = wave.split(len);
-            stream.closest(&columns, rays.apex, self.hint, &mut found);
-            for i in 0..len {
-                hits.t[first + i] = wave.t[i].to_f32();
-                hits.prim[first + i] = if wave.t[i] < wave.t_max[i] { wave.prim[i] } else { NO_HIT };
+            let part = rays.slice(first..rays.len().min(first + WAVE));
+            let (t, prim) = (&mut hits.t[first..][..part.len()], &mut hits.prim[first..][..part.len()]);
+            match (as_they_are(&part), T::Real::of_f32_mut(t)) {
+                (Some(columns), Some(t)) => {
+                    let (u, v) = (&mut u[..part.len()], &mut v[..part.len()]);
+                    let mut found = stream::HitColumns { t: &mut *t, u, v, prim: &mut *prim, instance: &mut [] };
+                    stream.closest(&columns, rays.apex, self.hint, &mut found);
+                    for ((t, t_max), prim) in t.iter().zip(part.t_max).zip(prim) {
+                        *prim = if t.to_f32() < *t_max { *prim } else { NO_HIT };
+                    }
+                }
+                _ => {
+                    let len = wave.load(&part, 0);
+                    let (columns, mut found) = wave.split(len);
+                    stream.closest(&columns, rays.apex, self.hint, &mut found);
+                    wave.store(t, prim);
+                }
             }
         }
     }
@@ -133,8 +165,14 @@ impl<T: Tier> Octray<'_, T> {
         let (mut stream, mut wave) = (RayStream::<T>::new(self.accel), Wave::new());
         let mut bits = [0; WAVE / WIDTH];
         for (first, occluded) in (0..rays.len()).step_by(WAVE).zip(occluded.chunks_mut(WAVE)) {
-            let len = wave.load(rays, first);
-            stream.any(&wave.split(len).0, rays.apex, self.hint, &mut bits);
+            let part = rays.slice(first..first + occluded.len());
+            match as_they_are(&part) {
+                Some(columns) => stream.any(&columns, rays.apex, self.hint, &mut bits),
+                None => {
+                    let len = wave.load(&part, 0);
+                    stream.any(&wave.split(len).0, rays.apex, self.hint, &mut bits);
+                }
+            }
             for (i, occluded) in occluded.iter_mut().enumerate() {
                 *occluded = bits[i / WIDTH] >> (i % WIDTH) & 1 != 0;
             }
