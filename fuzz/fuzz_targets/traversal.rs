@@ -3,6 +3,7 @@
 
 use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use libfuzzer_sys::fuzz_target;
+use octray::accel::stream::{Apex, Bound, HitColumns, RayColumns, RayStream};
 use octray::accel::{Accel, Hint, Traversal, brute};
 use octray::intersect::{Exact, PrimId, RayLanes, Tier, Watertight};
 use octray::math::{BitLane, Lane, Real, Transform, Vec3, WIDTH};
@@ -143,6 +144,39 @@ fn check<T: Tier>(geometry: &Geometry, accel: &Accel, rays: &RayLanes<T::Wide>) 
             assert_eq!(found, *expected, "{:?} {hint:?}, ray {i}", T::NAME);
         }
         assert_eq!(traversal.any::<T>(rays, hint), any, "any, {:?} {hint:?}", T::NAME);
+        check_streams::<T>(accel, rays, hint, &expected);
+    }
+}
+
+/// Streams, told nothing or that the rays have in common what the first of them has: true or not, results do not change.
+fn check_streams<T: Tier>(accel: &Accel, rays: &RayLanes<T::Wide>, hint: Hint, expected: &[Option<Bits>; WIDTH]) {
+    let column = |v: T::Wide| -> [T::Real; WIDTH] { std::array::from_fn(|i| v.get(i)) };
+    let axes = |v: Vec3<T::Wide>| [column(v.x), column(v.y), column(v.z)];
+    let (origin, direction) = (axes(rays.origin), axes(rays.direction));
+    let (t_min, t_max) = (column(rays.t_min), column(rays.t_max));
+    let columns = RayColumns {
+        len: WIDTH,
+        origin: origin.each_ref().map(|c| &c[..]),
+        direction: direction.each_ref().map(|c| &c[..]),
+        t_min: Bound::Each(&t_min),
+        t_max: Bound::Each(&t_max),
+    };
+    let start = origin.map(|c| c[0].to_f32());
+    let end = std::array::from_fn(|k| start[k] + direction[k][0].to_f32());
+    let mut stream = RayStream::<T>::new(accel);
+    for apex in [None, Some(Apex::Origin(start)), Some(Apex::Target(end))] {
+        let [mut t, mut u, mut v] = [[T::Real::default(); WIDTH]; 3];
+        let ([mut prim, mut instance], mut occluded) = ([[0; WIDTH]; 2], [0]);
+        let mut hits =
+            HitColumns { t: &mut t, u: &mut u, v: &mut v, prim: &mut prim, instance: &mut instance };
+        stream.closest(&columns, apex, hint, &mut hits);
+        stream.any(&columns, apex, hint, &mut occluded);
+        let bits = |x: T::Real| x.to_f64().to_bits();
+        for (i, expected) in expected.iter().enumerate() {
+            let found = (t[i] < t_max[i]).then(|| (bits(t[i]), bits(u[i]), bits(v[i]), prim[i], instance[i]));
+            assert_eq!(found, *expected, "{:?} {hint:?} {apex:?}, ray {i}", T::NAME);
+            assert_eq!(occluded[0] >> i & 1 != 0, expected.is_some(), "any, {:?} {hint:?} {apex:?}", T::NAME);
+        }
     }
 }
 

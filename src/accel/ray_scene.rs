@@ -1,14 +1,16 @@
 //! Ray queries without rendering: primitives in, hits out, plain arrays on both sides.
 
+mod batch;
 mod builder;
 #[cfg(test)]
 mod tests;
 
 use rayon::prelude::*;
 
-use super::{Accel, Hint, Traversal};
-use crate::intersect::{Exact, Fast, Hit, PrimId, PrimKind, Ray, RayLanes, Tier, TierName, Watertight};
-use crate::math::{BitLane, Lane, Real, Vec3, WIDTH};
+use super::stream::RayStream;
+use super::{Accel, Hint};
+use crate::intersect::{Exact, Fast, Hit, PrimId, PrimKind, Ray, Tier, TierName, Watertight};
+use batch::Batch;
 
 pub use builder::{RaySceneBuilder, RaySceneError};
 
@@ -77,28 +79,24 @@ impl RayScene {
 
     /// [`RayScene::closest`] with the tier as a type.
     pub fn closest_in<T: Tier>(&self, rays: &[Ray], hits: &mut [Option<Hit>], hint: Hint) {
-        each_packet(&self.accel, rays, hits, |traversal, packet, hits| {
-            let Some(lanes) = lanes::<T>(packet) else { return hits.fill(None) };
-            let found = traversal.closest::<T>(&lanes, hint);
+        each_batch::<T, _>(&self.accel, rays, hits, |stream, batch, hits| {
+            let apex = batch.apex();
+            let (columns, mut found) = batch.asked_for_hits();
+            stream.closest(&columns, apex, hint, &mut found);
             for (i, hit) in hits.iter_mut().enumerate() {
-                let is_hit = found.t.get(i) < lanes.t_max.get(i);
-                *hit = is_hit.then(|| Hit {
-                    t: found.t.get(i).to_f32(),
-                    u: found.u.get(i).to_f32(),
-                    v: found.v.get(i).to_f32(),
-                    prim: PrimId(found.prim.get(i)),
-                    instance: 0,
-                });
+                *hit = batch.hit(i);
             }
         });
     }
 
     /// [`RayScene::occluded`] with the tier as a type.
     pub fn occluded_in<T: Tier>(&self, rays: &[Ray], occluded: &mut [bool], hint: Hint) {
-        each_packet(&self.accel, rays, occluded, |traversal, packet, occluded| {
-            let hits = lanes::<T>(packet).map_or(0, |lanes| traversal.any::<T>(&lanes, hint));
+        each_batch::<T, _>(&self.accel, rays, occluded, |stream, batch, occluded| {
+            let apex = batch.apex();
+            let (columns, bits) = batch.asked_for_any();
+            stream.any(&columns, apex, hint, bits);
             for (i, occluded) in occluded.iter_mut().enumerate() {
-                *occluded = hits >> i & 1 != 0;
+                *occluded = batch.is_occluded(i);
             }
         });
     }
@@ -152,43 +150,28 @@ impl RayScene {
     }
 }
 
-/// Calls `answer` for eight rays and their places at a time, the last time for what is left; in parallel when long.
-fn each_packet<'a, A: Send>(
-    accel: &'a Accel,
+/// Calls `answer` for a batch of rays and their places at a time; in parallel when there are several.
+fn each_batch<T: Tier, A: Send>(
+    accel: &Accel,
     rays: &[Ray],
     answers: &mut [A],
-    answer: impl Fn(&mut Traversal<'a>, &[Ray], &mut [A]) + Sync,
+    answer: impl Fn(&mut RayStream<T>, &mut Batch<T::Real>, &mut [A]) + Sync,
 ) {
     let (asked, places) = (rays.len(), answers.len());
     assert!(asked == places, "{asked} rays need as many places for answers, not {places}");
-    let task = |traversal: &mut Traversal<'a>, (rays, answers): (&[Ray], &mut [A])| {
-        for (packet, answers) in rays.chunks(WIDTH).zip(answers.chunks_mut(WIDTH)) {
-            answer(traversal, packet, answers);
-        }
+    let scratch = || (RayStream::<T>::new(accel), Batch::default());
+    let task = |(stream, batch): &mut (RayStream<T>, Batch<T::Real>), (rays, answers): (&[Ray], &mut [A])| {
+        batch.load(rays);
+        answer(stream, batch, answers);
     };
     if rays.len() <= RAYS_PER_TASK {
-        return task(&mut Traversal::new(accel), (rays, answers));
+        return task(&mut scratch(), (rays, answers));
     }
     let tasks = rays.par_chunks(RAYS_PER_TASK).zip(answers.par_chunks_mut(RAYS_PER_TASK));
-    tasks.for_each_init(|| Traversal::new(accel), task);
+    tasks.for_each_init(scratch, task);
 }
 
-fn is_usable(ray: &Ray) -> bool {
+pub(super) fn is_usable(ray: &Ray) -> bool {
     let finite = ray.origin.iter().chain(&ray.direction).all(|x| x.is_finite());
     finite && ray.direction != [0.0; 3] && ray.t_min < ray.t_max
-}
-
-/// Up to eight rays as lanes; `None` if none of them can hit anything.
-///
-/// Lanes that ask nothing take the way of one that does, so that they cannot spoil its packet, and a `t_max` that tells
-/// the traversal to leave them alone.
-pub(super) fn lanes<T: Tier>(packet: &[Ray]) -> Option<RayLanes<T::Wide>> {
-    let filler = *packet.iter().find(|ray| is_usable(ray))?;
-    let idle = Ray { t_max: f32::NEG_INFINITY, ..filler };
-    let ray: [Ray; WIDTH] = std::array::from_fn(|i| packet.get(i).copied().filter(is_usable).unwrap_or(idle));
-    let column = |of: fn(&Ray) -> f32| T::Wide::load_f32(&ray.each_ref().map(of));
-    let origin = Vec3 { x: column(|r| r.origin[0]), y: column(|r| r.origin[1]), z: column(|r| r.origin[2]) };
-    let direction =
-        Vec3 { x: column(|r| r.direction[0]), y: column(|r| r.direction[1]), z: column(|r| r.direction[2]) };
-    Some(RayLanes { origin, direction, t_min: column(|r| r.t_min), t_max: column(|r| r.t_max) })
 }

@@ -62,11 +62,19 @@ impl Stacks {
     /// What stands at the bottom of every stack.
     pub(super) const END: ChildRef = ChildRef::from_bits(7 << 29);
 
-    /// Stacks of up to `bound` entries.
-    pub(super) fn new(count: usize, bound: usize) -> Self {
+    /// Stacks of up to `bound` entries, none so far.
+    pub(super) fn new(bound: usize) -> Self {
         // Eight entries are written at a time; an odd number of cache lines keeps the stacks in different cache sets.
         let stride = (bound + 2 * WIDTH).next_multiple_of(16) | 16;
-        Self { child: vec![Self::END.bits(); count * stride], near: vec![0.0; count * stride], stride }
+        Self { child: Vec::new(), near: Vec::new(), stride }
+    }
+
+    /// Makes sure that there are `count` stacks: only streams with rays that go alone need any.
+    pub(super) fn make(&mut self, count: usize) {
+        if self.child.len() < count * self.stride {
+            self.child.resize(count * self.stride, Self::END.bits());
+            self.near.resize(count * self.stride, 0.0);
+        }
     }
 
     /// Writes eight entries to a stack from `top` on.

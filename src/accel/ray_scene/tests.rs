@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::accel::brute;
+use crate::intersect::RayLanes;
 use crate::intersect::testing::dice::Dice;
 
 const TIERS: [TierName; 3] = [TierName::Fast, TierName::Watertight, TierName::Exact];

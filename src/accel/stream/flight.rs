@@ -68,12 +68,12 @@ pub(super) struct Flight<T: Tier, Q> {
 impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
     pub(super) fn new(accel: &Accel) -> Self {
         Self {
-            slots: Vec::with_capacity(SLOTS),
+            slots: Vec::new(),
             in_nodes: Slots::new(),
             in_leaves: Slots::new(),
             candidates: Slots::new(),
             done: Slots::new(),
-            stacks: Stacks::new(SLOTS, accel.stack_bound),
+            stacks: Stacks::new(accel.stack_bound),
         }
     }
 
@@ -86,6 +86,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         answers: &mut A,
     ) {
         let mut waiting = rows.iter();
+        self.stacks.make(SLOTS);
         self.slots.clear();
         for &row in waiting.by_ref().take(SLOTS) {
             let slot = Slot::new(accel, rays, row, A::ask_one);

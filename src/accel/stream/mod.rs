@@ -251,7 +251,9 @@ impl<'a, T: Tier> Bundles<'a, T> {
             self.rest -= 1;
             return false;
         }
-        let Some(mut frustum) = Frustum::around::<T>(&self.rays[..queries.len()], apex, world.scale) else { return false };
+        let Some(mut frustum) = Frustum::around::<T>(&self.rays[..queries.len()], apex, world.scale) else {
+            return false;
+        };
         for (j, query) in queries.iter().enumerate() {
             frustum.look(j, T::above_f32(query.limit()));
         }

@@ -145,7 +145,8 @@ impl<T: Tier> Octray<'_, T> {
             match (as_they_are(&part), T::Real::of_f32_mut(t)) {
                 (Some(columns), Some(t)) => {
                     let (u, v) = (&mut u[..part.len()], &mut v[..part.len()]);
-                    let mut found = stream::HitColumns { t: &mut *t, u, v, prim: &mut *prim, instance: &mut [] };
+                    let mut found =
+                        stream::HitColumns { t: &mut *t, u, v, prim: &mut *prim, instance: &mut [] };
                     stream.closest(&columns, rays.apex, self.hint, &mut found);
                     for ((t, t_max), prim) in t.iter().zip(part.t_max).zip(prim) {
                         *prim = if t.to_f32() < *t_max { *prim } else { NO_HIT };
