@@ -27,6 +27,7 @@ use crate::math::{Aabb, Lane, Transform, Vec3};
 use leaf::PreparedRays;
 use query::Query;
 
+pub(crate) use ray_scene::lanes;
 pub use ray_scene::{Primitive, RayScene, RaySceneBuilder, RaySceneError};
 pub use traversal::{Hint, Traversal};
 

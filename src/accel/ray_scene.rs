@@ -182,7 +182,7 @@ fn is_usable(ray: &Ray) -> bool {
 ///
 /// Lanes that ask nothing take the way of one that does, so that they cannot spoil its packet, and a `t_max` that tells
 /// the traversal to leave them alone.
-pub(super) fn lanes<T: Tier>(packet: &[Ray]) -> Option<RayLanes<T::Wide>> {
+pub(crate) fn lanes<T: Tier>(packet: &[Ray]) -> Option<RayLanes<T::Wide>> {
     let filler = *packet.iter().find(|ray| is_usable(ray))?;
     let idle = Ray { t_max: f32::NEG_INFINITY, ..filler };
     let ray: [Ray; WIDTH] = std::array::from_fn(|i| packet.get(i).copied().filter(is_usable).unwrap_or(idle));

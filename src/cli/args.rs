@@ -8,6 +8,8 @@ use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 use super::bench::BenchArgs;
 use super::simd;
 use super::source::SceneSource;
+use super::verify::VerifyArgs;
+use crate::intersect::TierName;
 use crate::output::Format;
 
 const EXIT_CODES: &str = "\
@@ -16,7 +18,7 @@ Exit codes:
   1  failed while running (files, memory, interrupted)
   2  wrong use
   3  bad scene or asset
-  4  slower than the baseline (octray bench)
+  4  slower than the baseline (octray bench), a documented bound is broken (octray verify)
 
 Data goes to standard output, everything else to standard error. NO_COLOR is honoured.";
 
@@ -38,6 +40,8 @@ pub enum Verb {
     Inspect(SceneArgs),
     /// Measure rays a second
     Bench(Box<BenchArgs>),
+    /// Measure how exact the answers are, and whether the documented bounds hold
+    Verify(Box<VerifyArgs>),
     /// List the built-in scenes, or print one as a scene file
     Scenes(ScenesArgs),
     /// Print the JSON Schema of scene files
@@ -131,6 +135,16 @@ pub enum Tier {
     Watertight,
     /// Double precision
     Exact,
+}
+
+impl From<Tier> for TierName {
+    fn from(tier: Tier) -> Self {
+        match tier {
+            Tier::Fast => Self::Fast,
+            Tier::Watertight => Self::Watertight,
+            Tier::Exact => Self::Exact,
+        }
+    }
 }
 
 /// How progress is shown.

@@ -1,7 +1,7 @@
 //! The command line: one file a verb, and what the verbs share.
 //!
 //! Data goes to standard output, everything else to standard error. Exit codes: 0 done, 1 failed while running,
-//! 2 wrong use, 3 bad scene or asset, 4 slower than the baseline.
+//! 2 wrong use, 3 bad scene or asset, 4 beyond a limit: slower than the baseline, or a documented bound is broken.
 
 mod args;
 pub mod bench;
@@ -23,8 +23,10 @@ mod simd;
 mod source;
 mod stdio;
 mod summary;
+pub mod verify;
 
 pub use args::{Args, CompletionsArgs, ManArgs, ProgressMode, RenderArgs, SceneArgs, ScenesArgs, Tier, Verb};
 pub use bench::BenchArgs;
 pub use error::{CliError, Exit, exit_code};
 pub use source::SceneSource;
+pub use verify::VerifyArgs;
