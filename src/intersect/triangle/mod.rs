@@ -1,9 +1,11 @@
 //! Ray against triangle.
 
+mod exact;
 mod moller_trumbore;
 pub mod oracle;
 mod woop;
 
+pub use exact::ExactVolumes;
 pub use moller_trumbore::MollerTrumbore;
 pub use woop::Woop;
 

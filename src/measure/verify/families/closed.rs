@@ -24,7 +24,7 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "along-edges",
         about: "along the edges of closed meshes, and in the planes of their faces",
-        promise: Promise::Triangles,
+        promise: Promise::EdgeOn,
         make: along,
     },
 ];
