@@ -48,7 +48,8 @@ impl TriangleTest for ExactVolumes {
             return LaneHit::none();
         }
         let (t, u, v) = coordinates(mask, ray, v);
-        LaneHit { mask, t: t.clamp(first, last), u, v }
+        // A zero of either sign becomes the positive one: equal distances have equal bits.
+        LaneHit { mask, t: t.clamp(first, last) + L::zero(), u, v }
     }
 
     type OneRay<R: Real> = OwnBox<R>;

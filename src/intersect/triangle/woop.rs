@@ -179,7 +179,8 @@ fn within_own_box<L: Lane>(
         return LaneHit::none();
     }
     let (t, u, v) = refine(ray, v);
-    LaneHit { mask, t: t.clamp(first, last), u, v }
+    // A zero of either sign becomes the positive one: equal distances have equal bits.
+    LaneHit { mask, t: t.clamp(first, last) + L::zero(), u, v }
 }
 
 /// Lanes whose rays pass on the same side of the three edges, or on one; from the corners' coordinates across the ray.

@@ -24,6 +24,8 @@ pub enum Promise {
     Leaving,
     /// Paths through glass.
     Glass,
+    /// Paths through gaps that only `f64` resolves.
+    Contact,
     /// Beyond the domain: measured, not promised.
     None,
 }
@@ -66,7 +68,8 @@ impl Promise {
             (Self::Boxes, _) => Bounds { missed: zero, differing, ..NOTHING },
             (_, TierName::Fast) => NOTHING,
             (Self::None, _) => Bounds { differing, ..NOTHING },
-            (Self::Leaving | Self::Glass, _) => Bounds { self_hits: zero, ..NOTHING },
+            (Self::Contact, TierName::Watertight) => NOTHING,
+            (Self::Leaving | Self::Glass | Self::Contact, _) => Bounds { self_hits: zero, ..NOTHING },
             (_, TierName::Watertight) => self.watertight(),
             (_, TierName::Exact) => self.exact(),
         }

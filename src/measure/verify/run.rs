@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use rayon::prelude::*;
 
 use super::bounds::Bounds;
-use super::families::Family;
+use super::families::{Family, PATHS};
 use super::octray::Octray;
 use super::report::FamilyReport;
 use super::tally::{Answers, Numbers, Tally};
@@ -34,7 +34,10 @@ pub struct Effort {
 pub fn verify_family(family: &Family, tiers: &[TierName], effort: Effort) -> Vec<FamilyReport> {
     let subjects: Vec<Box<dyn Subject>> = tiers.iter().map(|&tier| subject(tier)).collect();
     let subjects: Vec<&dyn Subject> = subjects.iter().map(|subject| &**subject).collect();
-    let tallies = tallies(family, &subjects, effort);
+    let tallies = match family.is_walked() {
+        true => tiers.iter().map(|&tier| walks(family, tier, effort)).collect(),
+        false => tallies(family, &subjects, effort),
+    };
     let report = |(&tier, tally): (&TierName, Tally)| {
         FamilyReport::new(family.name, tier.name(), tally, &family.promise.bounds(tier))
     };
@@ -63,14 +66,22 @@ pub(super) fn subject(tier: TierName) -> Box<dyn Subject> {
 
 /// One tally a subject; the truth of each ray is found once for all.
 fn tallies(family: &Family, subjects: &[&dyn Subject], effort: Effort) -> Vec<Tally> {
-    let rays_a_trial = family.trial(effort.seed, 0).rays.len().max(1);
-    let trials = effort.rays.div_ceil(rays_a_trial) as u64;
+    let rays_a_trial = family.trial(effort.seed, 0).map_or(0, |trial| trial.rays.len());
+    let trials = effort.rays.div_ceil(rays_a_trial.max(1)) as u64;
     let none = || vec![Tally::default(); subjects.len()];
-    let judged =
-        (0..trials).into_par_iter().map(|number| judge(&family.trial(effort.seed, number), subjects));
+    let judged = (0..trials)
+        .into_par_iter()
+        .filter_map(|number| Some(judge(&family.trial(effort.seed, number)?, subjects)));
     let join = |all: Vec<Tally>, one: Vec<Tally>| all.into_iter().zip(one).map(|(a, b)| a.join(b)).collect();
     // Collected first, so that examples and sums do not depend on threads.
     judged.collect::<Vec<_>>().into_iter().fold(none(), join)
+}
+
+/// Paths, which no oracle judges but what must come next.
+fn walks(family: &Family, tier: TierName, effort: Effort) -> Tally {
+    let trials = effort.rays.div_ceil(PATHS) as u64;
+    let walked = (0..trials).into_par_iter().filter_map(|number| family.walk(tier, effort.seed, number));
+    walked.collect::<Vec<_>>().into_iter().fold(Tally::default(), Tally::join)
 }
 
 fn judge(trial: &Trial, subjects: &[&dyn Subject]) -> Vec<Tally> {

@@ -1,7 +1,7 @@
 //! Boxes of a tree, which may be met too often but never missed.
 
-use super::Family;
 use super::aim::{Point, of_length_one, towards, trial};
+use super::{Family, Make};
 use crate::intersect::Ray;
 use crate::intersect::testing::dice::Dice;
 use crate::measure::verify::bounds::Promise;
@@ -12,13 +12,13 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "boxes",
         about: "boxes of size 1e-12 to 1e9, some of them flat, at their corners, edges and faces",
         promise: Promise::Boxes,
-        make: plain,
+        make: Make::Rays(plain),
     },
     Family {
         name: "box-planes",
         about: "along the axes of boxes on a grid, in the planes of their faces, with zeros of either sign",
         promise: Promise::Boxes,
-        make: planes,
+        make: Make::Rays(planes),
     },
 ];
 

@@ -1,7 +1,7 @@
 //! Closed meshes, which no ray may get through.
 
-use super::Family;
 use super::aim::{add, blend, exactly, of_length_one, towards, weights};
+use super::{Family, Make};
 use crate::intersect::Ray;
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::meshes::{Mesh, cube, icosphere, tetrahedron};
@@ -13,19 +13,19 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "closed-inside",
         about: "from inside closed meshes of size 1e-12 to 1e9 at their vertices, edges and faces",
         promise: Promise::Closed,
-        make: inside,
+        make: Make::Rays(inside),
     },
     Family {
         name: "closed-outside",
         about: "the same from outside, up to 30 sizes away",
         promise: Promise::Closed,
-        make: outside,
+        make: Make::Rays(outside),
     },
     Family {
         name: "along-edges",
         about: "along the edges of closed meshes, and in the planes of their faces",
         promise: Promise::EdgeOn,
-        make: along,
+        make: Make::Rays(along),
     },
 ];
 

@@ -1,7 +1,7 @@
 //! Cylinders.
 
-use super::Family;
 use super::aim::{Point, across, add, of_length_one, rounded, towards, trial};
+use super::{Family, Make};
 use crate::intersect::Ray;
 use crate::intersect::testing::dice::Dice;
 use crate::measure::verify::bounds::Promise;
@@ -12,31 +12,31 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "cylinders",
         about: "cylinders of radius 1e-6 to 1e6, from coins to rods, any axis",
         promise: Promise::Cylinders,
-        make: plain,
+        make: Make::Rays(plain),
     },
     Family {
         name: "rims",
         about: "within 1e-6 of the rims of cylinders",
         promise: Promise::Cylinders,
-        make: rims,
+        make: Make::Rays(rims),
     },
     Family {
         name: "wires",
         about: "cylinders 1e6 long and 1e-3 thick",
         promise: Promise::Cylinders,
-        make: wires,
+        make: Make::Rays(wires),
     },
     Family {
         name: "coins",
         about: "cylinders 1e-3 long and 1e6 thick",
         promise: Promise::Cylinders,
-        make: coins,
+        make: Make::Rays(coins),
     },
     Family {
         name: "along-axes",
         about: "along the axes of cylinders, but for rounding or a tiny angle, and in the planes of their caps",
         promise: Promise::Cylinders,
-        make: along_axes,
+        make: Make::Rays(along_axes),
     },
 ];
 

@@ -1,7 +1,7 @@
 //! What is hard for every kind of primitive alike.
 
-use super::Family;
 use super::aim::{Point, add, of_length_one, rounded, towards, trial, triangle};
+use super::{Family, Make};
 use crate::intersect::Ray;
 use crate::intersect::oracle::{Line, nearest};
 use crate::intersect::testing::dice::Dice;
@@ -13,37 +13,37 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "far",
         about: "objects of size 1 seen from 1e3 to 1e8",
         promise: Promise::Magnitudes,
-        make: far,
+        make: Make::Rays(far),
     },
     Family {
         name: "axis-parallel",
         about: "along axes and in planes of two, with zeros of either sign, at shapes on a grid",
         promise: Promise::Cylinders,
-        make: axis_parallel,
+        make: Make::Rays(axis_parallel),
     },
     Family {
         name: "lengths",
         about: "directions of length 1e-20 to 1e20",
         promise: Promise::Cylinders,
-        make: lengths,
+        make: Make::Rays(lengths),
     },
     Family {
         name: "odd-lengths",
         about: "directions as short as the least f32 and as long as the largest: beyond the domain",
         promise: Promise::None,
-        make: odd_lengths,
+        make: Make::Rays(odd_lengths),
     },
     Family {
         name: "t-max",
         about: "rays that end exactly at their hit, one number before or behind it",
         promise: Promise::Cylinders,
-        make: t_max,
+        make: Make::Rays(t_max),
     },
     Family {
         name: "mixed",
         about: "a dozen triangles, spheres and cylinders that interpenetrate",
         promise: Promise::Cylinders,
-        make: mixed,
+        make: Make::Rays(mixed),
     },
 ];
 

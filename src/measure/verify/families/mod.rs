@@ -5,11 +5,16 @@ mod boxes;
 mod closed;
 mod cylinders;
 mod mixed;
+mod paths;
 mod spheres;
 mod triangles;
 
+pub(super) use paths::PATHS;
+
 use super::bounds::Promise;
+use super::tally::Tally;
 use super::trial::Trial;
+use crate::intersect::TierName;
 use crate::intersect::testing::dice::Dice;
 
 /// A named set of hard cases, without end.
@@ -21,15 +26,24 @@ pub struct Family {
     pub about: &'static str,
     /// Which bounds hold.
     pub promise: Promise,
-    make: fn(&mut Dice) -> Trial,
+    make: Make,
+}
+
+/// What becomes of a seed.
+#[derive(Clone, Copy, Debug)]
+enum Make {
+    /// Rays for any intersector.
+    Rays(fn(&mut Dice) -> Trial),
+    /// Paths that octray walks by itself, tier by tier.
+    Paths([fn(&mut Dice, &mut Tally); 3]),
 }
 
 impl Family {
-    /// All families of rays.
+    /// All families.
     pub fn all() -> impl Iterator<Item = &'static Self> {
         let tables =
             [closed::FAMILIES, triangles::FAMILIES, spheres::FAMILIES, cylinders::FAMILIES, boxes::FAMILIES];
-        tables.into_iter().chain([mixed::FAMILIES]).flatten()
+        tables.into_iter().chain([mixed::FAMILIES, paths::FAMILIES]).flatten()
     }
 
     /// The family of a name.
@@ -37,15 +51,33 @@ impl Family {
         Self::all().find(|family| family.name == name)
     }
 
-    /// Trial `number` of a seed: always the same.
-    pub fn trial(&self, seed: u64, number: u64) -> Trial {
-        let words = self.name.bytes().map(u64::from).chain([seed, number]);
-        let start = words.fold(0, |state, word| Dice(state ^ word).word());
-        (self.make)(&mut Dice(start))
+    /// Trial `number` of a seed: always the same. Nothing for paths, which start where an intersector's rays hit.
+    pub fn trial(&self, seed: u64, number: u64) -> Option<Trial> {
+        match self.make {
+            Make::Rays(make) => Some(make(&mut self.dice(seed, number))),
+            Make::Paths(_) => None,
+        }
     }
 
     /// The trials of a seed, one after the other.
     pub fn trials(&self, seed: u64) -> impl Iterator<Item = Trial> + use<'_> {
-        (0..).map(move |number| self.trial(seed, number))
+        (0..).map_while(move |number| self.trial(seed, number))
+    }
+
+    pub(super) fn is_walked(&self) -> bool {
+        matches!(self.make, Make::Paths(_))
+    }
+
+    /// Walks some paths in a tier, if this is a family of paths.
+    pub(super) fn walk(&self, tier: TierName, seed: u64, number: u64) -> Option<Tally> {
+        let Make::Paths(walks) = self.make else { return None };
+        let mut tally = Tally::default();
+        walks[tier as usize](&mut self.dice(seed, number), &mut tally);
+        Some(tally)
+    }
+
+    fn dice(&self, seed: u64, number: u64) -> Dice {
+        let words = self.name.bytes().map(u64::from).chain([seed, number]);
+        Dice(words.fold(0, |state, word| Dice(state ^ word).word()))
     }
 }

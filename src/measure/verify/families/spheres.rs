@@ -1,7 +1,7 @@
 //! Spheres.
 
-use super::Family;
 use super::aim::{Point, across, add, of_length_one, rounded, towards, trial};
+use super::{Family, Make};
 use crate::intersect::testing::dice::Dice;
 use crate::measure::verify::bounds::Promise;
 use crate::measure::verify::trial::{Shape, Trial};
@@ -11,25 +11,25 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "spheres",
         about: "spheres of radius 1e-30 to 1e30 from inside, near and 1e4 radii away",
         promise: Promise::Spheres,
-        make: plain,
+        make: Make::Rays(plain),
     },
     Family {
         name: "tangent",
         about: "rays that graze spheres and cylinders to within some roundoffs",
         promise: Promise::Cylinders,
-        make: tangent,
+        make: Make::Rays(tangent),
     },
     Family {
         name: "ground",
         about: "a ground sphere of radius 1e6 seen from 1e-3 to 1e3 above it",
         promise: Promise::Spheres,
-        make: ground,
+        make: Make::Rays(ground),
     },
     Family {
         name: "touching",
         about: "spheres that touch, share a centre or are the same, through the points where they touch",
         promise: Promise::Spheres,
-        make: touching,
+        make: Make::Rays(touching),
     },
 ];
 

@@ -1,9 +1,9 @@
 //! Single triangles and a few together.
 
-use super::Family;
 use super::aim::{
     Point, add, blend, exactly, has_area, of_length_one, rounded, towards, trial, triangle, weights,
 };
+use super::{Family, Make};
 use crate::intersect::Ray;
 use crate::intersect::testing::dice::Dice;
 use crate::measure::verify::bounds::Promise;
@@ -14,37 +14,37 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "triangles",
         about: "triangles of size 1e-12 to 1e9, hit and missed",
         promise: Promise::Triangles,
-        make: plain,
+        make: Make::Rays(plain),
     },
     Family {
         name: "triangle-edges",
         about: "triangles of size 1e-12 to 1e9 at their vertices and edges",
         promise: Promise::Triangles,
-        make: edges,
+        make: Make::Rays(edges),
     },
     Family {
         name: "slivers",
         about: "triangles as thin as 1e-9 of their length, and with two corners nearly the same",
         promise: Promise::Triangles,
-        make: slivers,
+        make: Make::Rays(slivers),
     },
     Family {
         name: "any-magnitude",
         about: "triangles whose coordinates are 1e-30 to 1e18, all mixed: beyond the domain of f32",
         promise: Promise::None,
-        make: any_magnitude,
+        make: Make::Rays(any_magnitude),
     },
     Family {
         name: "on-faces",
         about: "from points on faces, edges and vertices of triangles",
         promise: Promise::Triangles,
-        make: on_faces,
+        make: Make::Rays(on_faces),
     },
     Family {
         name: "coplanar",
         about: "triangles that overlap in one plane, some of them the same",
         promise: Promise::Triangles,
-        make: coplanar,
+        make: Make::Rays(coplanar),
     },
 ];
 
