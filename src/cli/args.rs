@@ -6,6 +6,7 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
 use super::bench::BenchArgs;
+use super::compare::CompareArgs;
 use super::simd;
 use super::source::SceneSource;
 use super::verify::VerifyArgs;
@@ -18,7 +19,8 @@ Exit codes:
   1  failed while running (files, memory, interrupted)
   2  wrong use
   3  bad scene or asset
-  4  slower than the baseline (octray bench), a documented bound is broken (octray verify)
+  4  beyond a limit: slower than the baseline (octray bench), a documented bound broken (octray verify),
+     pictures that differ by too much (octray compare)
 
 Data goes to standard output, everything else to standard error. NO_COLOR is honoured.";
 
@@ -42,6 +44,8 @@ pub enum Verb {
     Bench(Box<BenchArgs>),
     /// Measure how exact the answers are, and whether the documented bounds hold
     Verify(Box<VerifyArgs>),
+    /// Say how far two pictures differ
+    Compare(CompareArgs),
     /// List the built-in scenes, or print one as a scene file
     Scenes(ScenesArgs),
     /// Print the JSON Schema of scene files

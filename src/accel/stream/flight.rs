@@ -155,8 +155,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             if slot.test_candidates(accel) {
                 slot.limit = T::above_f32(T::Wide::splat(slot.query.limit())).get(0);
                 let top = slot.top as usize;
-                let kept =
-                    if slot.query.is_done() { 1 } else { self.stacks.keep_within(at, top, slot.limit) };
+                let kept = if slot.query.is_done() { 1 } else { self.stacks.keep_within(at, top, slot.limit) };
                 slot.top = kept as u32;
             }
         }

@@ -40,7 +40,11 @@ impl TriangleTest for MollerTrumbore {
     fn prepare_one<R: Real>(_: &RayLanes<R>) {}
 
     #[inline(always)]
-    fn candidates<L: Lane>(ray: &RayLanes<L::Scalar>, _: &(), corners: &[[[f32; WIDTH]; 3]; 3]) -> u32 {
+    fn candidates<L: Lane>(
+        ray: &RayLanes<L::Scalar>,
+        _: &(),
+        corners: &[[[f32; WIDTH]; 3]; 3],
+    ) -> u32 {
         let corners = three(|v| Vec3::<L>::load_f32(&corners[v]));
         Self::test(&RayLanes::splat(ray), &(), corners, L::zero()).mask.bits()
     }
