@@ -40,7 +40,7 @@ fn a_limit_that_is_passed_gives_exit_code_4() {
     let folder = tempfile::tempdir().unwrap();
     let (a, b) = (picture(folder.path(), "a.pfm", 0.0), picture(folder.path(), "b.exr", 0.125));
     let (stdout, _) = octray(&[text(&a), text(&b), "--metric", "max", "--max-rmse", "0.08"], 0);
-    assert_eq!(stdout, "max 0.125\n");
+    assert!(stdout.starts_with("max 0.125"), "{stdout}");
     let (stdout, stderr) = octray(&[text(&a), text(&b), "--metric", "rmse", "--max-rmse", "0.07"], 4);
     assert!(stdout.starts_with("rmse 0.0721") && stderr.contains("more than 0.07"), "{stdout}{stderr}");
 }
@@ -71,7 +71,7 @@ fn bad_input_is_told() {
         ("nowhere.png", &[], 1, "nowhere.png"),
         ("a.jpg", &[], 2, "ppm, png, exr, pfm"),
         (text(&a), &["--metric", "ssim"], 2, "psnr"),
-        (text(&a), &["--max-rmse", "-1"], 2, "--max-rmse"),
+        (text(&a), &["--max-rmse=-1"], 2, "--max-rmse"),
         (text(&a), &["--heatmap", "/nowhere/at/all.png"], 1, "/nowhere/at/all.png"),
     ] {
         let (_, stderr) = octray(&[&[text(&a), second], more].concat(), code);
