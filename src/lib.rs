@@ -89,7 +89,7 @@
 //! | [`film`] | samples into pixels, in an order that no thread can change |
 //! | [`output`] | films into PNG, PPM, EXR, PFM |
 //! | [`math`] | the lanes that all of it is written over |
-//! | [`measure`] | scenes into rays a second, here and in other ray tracers |
+//! | [`measure`] | scenes into rays a second, hard rays into errors, pictures into differences |
 //! | [`cli`] | arguments into all of the above |
 //!
 //! # Which tier
@@ -100,8 +100,10 @@
 //!   bits for any number of threads, packet width, tree and machine.
 //! - [`TierName::Fast`]: `f32` throughout, with fused operations; a ray may slip through a shared edge, and the last bits
 //!   may differ between builds. For previews.
-//! - [`TierName::Exact`]: `f64` rays and tests on the same `f32` scene. For references and for scenes whose parts differ
-//!   in size by many orders of magnitude.
+//! - [`TierName::Exact`]: `f64` rays and tests on the same `f32` scene; which triangles are met is decided without rounding.
+//!   For references and for scenes whose parts differ in size by many orders of magnitude.
+//!
+//! [`measure::verify`] holds them to this, and other intersectors too.
 //!
 //! A [`Hint`] says how rays lie to each other. It changes time, never results.
 

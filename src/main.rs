@@ -3,13 +3,17 @@
 use std::process::ExitCode;
 
 use clap::Parser;
-use octray::cli::{Args, Verb, bench, completions, exit_code, inspect, man, render, scenes, schema};
+use octray::cli::{
+    Args, Verb, bench, compare, completions, exit_code, inspect, man, render, scenes, schema, verify,
+};
 
 fn main() -> ExitCode {
     exit_code(match Args::parse().verb {
         Verb::Render(args) => render::run(&args),
         Verb::Inspect(args) => inspect::run(&args),
         Verb::Bench(args) => bench::run(&args),
+        Verb::Verify(args) => verify::run(&args),
+        Verb::Compare(args) => compare::run(&args),
         Verb::Scenes(args) => scenes::run(&args),
         Verb::Schema => schema::run(),
         Verb::Completions(args) => completions::run(&args),

@@ -32,6 +32,7 @@ use leaf::PreparedRays;
 use query::Query;
 
 pub use build::Quality;
+pub(crate) use ray_scene::lanes;
 pub use ray_scene::{Primitive, RayScene, RaySceneBuilder, RaySceneError};
 pub use refit::RefitError;
 pub use traversal::{Hint, Traversal};

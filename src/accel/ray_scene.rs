@@ -9,7 +9,8 @@ use rayon::prelude::*;
 
 use super::stream::RayStream;
 use super::{Accel, Hint};
-use crate::intersect::{Exact, Fast, Hit, PrimId, PrimKind, Ray, Tier, TierName, Watertight};
+use crate::intersect::{Exact, Fast, Hit, PrimId, PrimKind, Ray, RayLanes, Tier, TierName, Watertight};
+use crate::math::{Lane, Vec3, WIDTH};
 use batch::Batch;
 
 pub use builder::{RaySceneBuilder, RaySceneError};
@@ -171,7 +172,22 @@ fn each_batch<T: Tier, A: Send>(
     tasks.for_each_init(scratch, task);
 }
 
-pub(super) fn is_usable(ray: &Ray) -> bool {
+fn is_usable(ray: &Ray) -> bool {
     let finite = ray.origin.iter().chain(&ray.direction).all(|x| x.is_finite());
     finite && ray.direction != [0.0; 3] && ray.t_min < ray.t_max
+}
+
+/// Up to eight rays as lanes; `None` if none of them can hit anything.
+///
+/// Lanes that ask nothing take the way of one that does, so that they cannot spoil its packet, and a `t_max` that tells
+/// the traversal to leave them alone.
+pub(crate) fn lanes<T: Tier>(packet: &[Ray]) -> Option<RayLanes<T::Wide>> {
+    let filler = *packet.iter().find(|ray| is_usable(ray))?;
+    let idle = Ray { t_max: f32::NEG_INFINITY, ..filler };
+    let ray: [Ray; WIDTH] = std::array::from_fn(|i| packet.get(i).copied().filter(is_usable).unwrap_or(idle));
+    let column = |of: fn(&Ray) -> f32| T::Wide::load_f32(&ray.each_ref().map(of));
+    let origin = Vec3 { x: column(|r| r.origin[0]), y: column(|r| r.origin[1]), z: column(|r| r.origin[2]) };
+    let direction =
+        Vec3 { x: column(|r| r.direction[0]), y: column(|r| r.direction[1]), z: column(|r| r.direction[2]) };
+    Some(RayLanes { origin, direction, t_min: column(|r| r.t_min), t_max: column(|r| r.t_max) })
 }

@@ -6,8 +6,11 @@ use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
 use super::bench::BenchArgs;
+use super::compare::CompareArgs;
 use super::simd;
 use super::source::SceneSource;
+use super::verify::VerifyArgs;
+use crate::intersect::TierName;
 use crate::output::Format;
 
 const EXIT_CODES: &str = "\
@@ -16,7 +19,8 @@ Exit codes:
   1  failed while running (files, memory, interrupted)
   2  wrong use
   3  bad scene or asset
-  4  slower than the baseline (octray bench)
+  4  beyond a limit: slower than the baseline (octray bench), a documented bound broken (octray verify),
+     pictures that differ by too much (octray compare)
 
 Data goes to standard output, everything else to standard error. NO_COLOR is honoured.";
 
@@ -38,6 +42,10 @@ pub enum Verb {
     Inspect(InspectArgs),
     /// Measure rays a second
     Bench(Box<BenchArgs>),
+    /// Measure how exact the answers are, and whether the documented bounds hold
+    Verify(Box<VerifyArgs>),
+    /// Say how far two pictures differ
+    Compare(CompareArgs),
     /// List the built-in scenes, or print one as a scene file
     Scenes(ScenesArgs),
     /// Print the JSON Schema of scene files
@@ -162,6 +170,16 @@ impl BuildQuality {
     /// As it is written in a scene file.
     fn assignment(self) -> Option<String> {
         self.to_possible_value().map(|value| format!("\"{}\"", value.get_name()))
+    }
+}
+
+impl From<Tier> for TierName {
+    fn from(tier: Tier) -> Self {
+        match tier {
+            Tier::Fast => Self::Fast,
+            Tier::Watertight => Self::Watertight,
+            Tier::Exact => Self::Exact,
+        }
     }
 }
 

@@ -104,7 +104,7 @@ fn announce(pool: &ThreadPool) {
 fn measure(args: &BenchArgs, pool: &ThreadPool, peers: &Peers) -> Result<Report, CliError> {
     let options = Options {
         classes: args.classes.clone(),
-        tier: tier_name(args.tier),
+        tier: args.tier.into(),
         size: args.size,
         runs: usize::from(args.runs),
         peak_box_tests_s: pool.install(box_tests_a_second),
@@ -154,14 +154,6 @@ fn scene(
 fn view_of(text: &str) -> (&str, Option<View>) {
     let marked = text.rsplit_once('@').and_then(|(name, view)| Some((name, Some(view.parse().ok()?))));
     marked.unwrap_or((text, None))
-}
-
-fn tier_name(tier: Tier) -> TierName {
-    match tier {
-        Tier::Fast => TierName::Fast,
-        Tier::Watertight => TierName::Watertight,
-        Tier::Exact => TierName::Exact,
-    }
 }
 
 fn to_json(report: &Report) -> Result<String, CliError> {

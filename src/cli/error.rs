@@ -16,7 +16,7 @@ pub enum Exit {
     Usage = 2,
     /// A bad scene or asset.
     Scene = 3,
-    /// Slower than the baseline.
+    /// Beyond a limit: slower than the baseline, a documented bound broken, pictures that differ by too much.
     Regression = 4,
 }
 

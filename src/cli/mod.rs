@@ -1,10 +1,11 @@
 //! The command line: one file a verb, and what the verbs share.
 //!
 //! Data goes to standard output, everything else to standard error. Exit codes: 0 done, 1 failed while running,
-//! 2 wrong use, 3 bad scene or asset, 4 slower than the baseline.
+//! 2 wrong use, 3 bad scene or asset, 4 beyond a limit: slower than the baseline, a documented bound is broken, or pictures that differ by too much.
 
 mod args;
 pub mod bench;
+pub mod compare;
 pub mod completions;
 mod destination;
 mod error;
@@ -23,11 +24,14 @@ mod simd;
 mod source;
 mod stdio;
 mod summary;
+pub mod verify;
 
 pub use args::{
     Args, BuildQuality, CompletionsArgs, InspectArgs, ManArgs, ProgressMode, RenderArgs, SceneArgs,
     ScenesArgs, Tier, Verb,
 };
 pub use bench::BenchArgs;
+pub use compare::CompareArgs;
 pub use error::{CliError, Exit, exit_code};
 pub use source::SceneSource;
+pub use verify::VerifyArgs;

@@ -1,15 +1,15 @@
 //! Rays, hits and the primitive tests, each written once for every lane width and number type.
 //!
 //! A test takes rays and primitives as lanes: eight rays against one primitive (the primitive splatted) or one ray
-//! against eight primitives (the ray splatted). Beside each kernel stands an independent plain version in `f64`, the
-//! `oracle`, that it is property-tested against.
+//! against eight primitives (the ray splatted). Beside each kernel stands an independent plain version in `f64`, its
+//! `oracle`, that it is property-tested against; above them all stands [`oracle`], which does not round at all.
 
 pub mod aabb;
 pub mod cylinder;
+pub mod oracle;
 pub mod plane;
 mod ray;
 pub mod sphere;
-#[cfg(test)]
 pub(crate) mod testing;
 mod tier;
 pub mod triangle;

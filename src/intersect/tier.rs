@@ -2,7 +2,7 @@
 
 use wide::{f32x8, f64x8};
 
-use super::triangle::{MollerTrumbore, Woop};
+use super::triangle::{ExactVolumes, MollerTrumbore, Woop};
 use super::{LaneHit, RayLanes, cylinder, sphere};
 use crate::math::{Lane, Real, Vec3, WIDTH};
 
@@ -110,7 +110,7 @@ pub struct Fast;
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Watertight;
 
-/// `f64` rays, tests and shading on the `f32` scene.
+/// `f64` rays, tests and shading on the `f32` scene; which triangles a ray meets is decided without rounding.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Exact;
 
@@ -141,7 +141,7 @@ macro_rules! tier {
 }
 tier!(Fast, f32, f32x8, MollerTrumbore, Direct, as_is, as_is, as_is);
 tier!(Watertight, f32, f32x8, Woop, Filtered, as_is, as_is, as_is);
-tier!(Exact, f64, f64x8, Woop, Direct, f32x8::narrow, above, below);
+tier!(Exact, f64, f64x8, ExactVolumes, Direct, f32x8::narrow, above, below);
 
 #[inline(always)]
 fn as_is(x: f32x8) -> f32x8 {

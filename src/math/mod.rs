@@ -4,6 +4,7 @@
 //! (`f32x8`, `f64x8`).
 
 mod aabb;
+mod expansion;
 mod lane;
 mod lane_scalar;
 mod lane_wide;
@@ -11,6 +12,7 @@ mod transform;
 mod vec3;
 
 pub use aabb::Aabb;
+pub(crate) use expansion::{Expansion, Pair, two_sum};
 pub use lane::{BitLane, Lane, Mask, Real};
 pub use transform::{Transform, TransformError};
 pub use vec3::{Vec3, fused_cross, fused_dot};

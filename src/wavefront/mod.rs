@@ -19,6 +19,7 @@ mod surface_queue;
 mod tile;
 mod wave;
 
+pub(crate) use offset::offset_along;
 pub use render::{Progress, RenderError, RenderOptions, RenderReport, render};
 pub(crate) use surface::{HitLanes, evaluate};
 pub use wave::RayCounts;

@@ -9,7 +9,7 @@ use crate::math::{Lane, Vec3};
 ///
 /// **Source:** Pharr, Jakob and Humphreys, 4th ed., 6.8.6.
 #[inline(always)]
-pub(super) fn offset_along<L: Lane>(point: Vec3<L>, error: L, normal: Vec3<L>) -> Vec3<L> {
+pub(crate) fn offset_along<L: Lane>(point: Vec3<L>, error: L, normal: Vec3<L>) -> Vec3<L> {
     let size = normal.abs();
     point + normal * (error * (size.x + size.y + size.z))
 }

@@ -1,9 +1,9 @@
 //! Closed meshes around the origins of rays.
 
-use super::rays::lanes;
 use super::scenes::World;
 use super::{HINTS, lane};
 use crate::accel::build::Quality;
+use crate::accel::ray_scene::lanes;
 use crate::accel::{Accel, Traversal};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::meshes::icosphere;

@@ -12,13 +12,13 @@ use proptest::strategy::ValueTree;
 
 use super::build::{BuildPrimitive, Cuttable, Quality, build};
 use super::query::Closest;
+use super::ray_scene::lanes;
 use super::validate::{TreeFault, TreeStats, validate_cut};
 use super::{Accel, Hint, Traversal, brute};
 use crate::geometry::Geometry;
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::{Exact, Fast, PrimKind, Ray, RayLanes, Tier, Watertight};
 use crate::math::{BitLane, Lane, Real, WIDTH};
-use rays::lanes;
 use scenes::{World, world};
 
 const QUALITIES: [Quality; 3] = [Quality::Fast, Quality::Balanced, Quality::High];

@@ -1,9 +1,7 @@
 //! Rays that make traversals err: along axes, in planes, from surfaces, through corners.
 
-use crate::accel::ray_scene::is_usable;
+use crate::intersect::Ray;
 use crate::intersect::testing::dice::Dice;
-use crate::intersect::{Ray, RayLanes, Tier};
-use crate::math::{Lane, Vec3, WIDTH};
 
 /// Rays around the points that matter in a scene; packets of eight are now alike, now not.
 pub(in crate::accel) fn around(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> Vec<Ray> {
@@ -78,16 +76,4 @@ fn neighbour(ray: &Ray, dice: &mut Dice) -> Ray {
         direction: std::array::from_fn(|k| ray.direction[k] * (1.0 + by * b[k] as f32)),
         ..*ray
     }
-}
-
-/// Up to eight rays as lanes; `None` if none of them can hit anything. Lanes that ask nothing are turned off.
-pub(super) fn lanes<T: Tier>(packet: &[Ray]) -> Option<RayLanes<T::Wide>> {
-    let filler = *packet.iter().find(|ray| is_usable(ray))?;
-    let idle = Ray { t_max: f32::NEG_INFINITY, ..filler };
-    let ray: [Ray; WIDTH] = std::array::from_fn(|i| packet.get(i).copied().filter(is_usable).unwrap_or(idle));
-    let column = |of: fn(&Ray) -> f32| T::Wide::load_f32(&ray.each_ref().map(of));
-    let origin = Vec3 { x: column(|r| r.origin[0]), y: column(|r| r.origin[1]), z: column(|r| r.origin[2]) };
-    let direction =
-        Vec3 { x: column(|r| r.direction[0]), y: column(|r| r.direction[1]), z: column(|r| r.direction[2]) };
-    Some(RayLanes { origin, direction, t_min: column(|r| r.t_min), t_max: column(|r| r.t_max) })
 }

@@ -43,6 +43,7 @@ impl Dice {
         }
     }
     /// A component as the hard cases have them: often zero, of a small grid, tiny, or far out.
+    #[cfg(test)]
     pub(crate) fn hard(&mut self) -> f32 {
         match self.below(10) {
             0 => 0.0,

@@ -2,7 +2,9 @@
 
 use std::collections::HashMap;
 
+#[cfg(test)]
 use super::dice::Dice;
+#[cfg(test)]
 use crate::math::{Lane, Real, Vec3};
 
 /// A closed surface: every edge belongs to two triangles.
@@ -76,6 +78,7 @@ impl Mesh {
     }
 
     /// Turned at random, scaled by 1e-6 to 1e6, moved by up to `reach` times its size; and where its centre went.
+    #[cfg(test)]
     pub(crate) fn placed(&self, dice: &mut Dice, reach: f64) -> (Vec<[f32; 3]>, Vec3<f64>, f64) {
         let size = dice.magnitude(-6.0, 6.0).abs();
         let center = dice.point().map(|x| x * reach * size);
@@ -88,6 +91,7 @@ impl Mesh {
     }
 
     /// As many triangles a packet as there are lanes, padded with NaN.
+    #[cfg(test)]
     pub(crate) fn packets<L: Lane>(&self, points: &[[f32; 3]]) -> Vec<[Vec3<L>; 3]> {
         let corner = |t: Option<&[usize; 3]>, k: usize| t.map_or([f32::NAN; 3], |t| points[t[k]]);
         let pack = |ts: &[[usize; 3]]| {
@@ -101,6 +105,7 @@ impl Mesh {
 }
 
 /// The rows of a rotation about a unit axis (Rodrigues' formula).
+#[cfg(test)]
 fn turned([x, y, z]: [f64; 3], angle_rad: f64) -> [[f64; 3]; 3] {
     let (s, c) = angle_rad.sin_cos();
     let k = 1.0 - c;

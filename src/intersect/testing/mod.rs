@@ -1,26 +1,35 @@
-//! What the tests of the kernels share: exact arithmetic, one battery for all widths, hard rays, closed meshes.
+//! What the tests of the kernels and `octray verify` share: dice, closed meshes, ulps; and for the tests alone the exact
+//! oracle, one battery for all widths, lines.
 
+#[cfg(test)]
 mod conservative;
 pub(crate) mod dice;
+#[cfg(test)]
 pub(crate) mod exact;
+#[cfg(test)]
 mod lanes;
 pub(crate) mod meshes;
 
+#[cfg(test)]
 use super::{LaneHit, RayLanes};
+#[cfg(test)]
 use crate::math::{Real, Vec3};
 
 /// A ray without bounds, so that a test sees every meeting of the line.
+#[cfg(test)]
 pub(crate) fn line<R: Real>(origin: [R; 3], direction: [R; 3]) -> RayLanes<R> {
     let (t_min, t_max) = (R::constant(f64::NEG_INFINITY), R::constant(f64::INFINITY));
     RayLanes { origin: Vec3::splat(origin), direction: Vec3::splat(direction), t_min, t_max }
 }
 
 /// A ray that starts at its origin.
+#[cfg(test)]
 pub(crate) fn ray<R: Real>(origin: [R; 3], direction: [R; 3]) -> RayLanes<R> {
     RayLanes { t_min: R::constant(0.0), ..line(origin, direction) }
 }
 
 /// `t` of a scalar hit, if it is one.
+#[cfg(test)]
 pub(crate) fn t_of<R: Real>(hit: LaneHit<R>) -> Option<R> {
     hit.mask.then_some(hit.t)
 }

@@ -1,10 +1,12 @@
 //! Ray against triangle.
 
+mod exact;
 mod moller_trumbore;
 mod near;
 pub mod oracle;
 mod woop;
 
+pub use exact::ExactVolumes;
 pub use moller_trumbore::MollerTrumbore;
 pub use woop::Woop;
 

@@ -2,7 +2,7 @@
 
 use wide::{f32x8, f64x8};
 
-use super::{MollerTrumbore, Woop, oracle};
+use super::{ExactVolumes, MollerTrumbore, Woop, oracle};
 use crate::intersect::aabb::CullRay;
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::meshes::{Mesh, cube, icosphere, tetrahedron};
@@ -84,6 +84,68 @@ fn the_oracle_and_woop_in_f64_agree_with_exact_arithmetic_but_at_edges() {
             if let (Some(got), Some(want)) = (got, want) {
                 assert!((got - want).abs() <= 1e-6 * want.abs(), "{name}: {got} for {want} of {r:?} {v:?}");
             }
+        }
+    }
+}
+
+/// Corners of any size, aimed at vertices, edges and faces, by rays whose last bits `f32` does not have.
+fn hard_case(dice: &mut Dice) -> (RayLanes<f64>, [Vec3<f64>; 3]) {
+    let v: [[f32; 3]; 3] = std::array::from_fn(|_| std::array::from_fn(|_| dice.hard()));
+    let weights = aim(dice);
+    let target: [f64; 3] =
+        std::array::from_fn(|k| (0..3).map(|i| weights[i] * f64::from(v[i][k])).sum::<f64>());
+    let near = dice.below(3) == 0;
+    let origin: [f64; 3] = std::array::from_fn(|k| {
+        if near { target[k] + 1e-9 * f64::from(dice.hard()) } else { f64::from(dice.hard()) }
+    });
+    let direction = match dice.below(4) {
+        0 => std::array::from_fn(|_| f64::from(dice.hard())),
+        _ => std::array::from_fn(|k| target[k] - origin[k]),
+    };
+    let direction = if direction == [0.0; 3] { [0.0, 0.0, 1.0] } else { direction };
+    (line(origin, direction), v.map(|p| Vec3::splat(p.map(f64::from))))
+}
+
+/// No case is too hard: hit or miss is that of exact arithmetic, and `t` is off by less than a hundredth of an `f32` ulp.
+#[test]
+fn the_exact_test_is_exact() {
+    let mut dice = Dice(14);
+    let (mut hits, mut on_edges) = (0, 0);
+    for _ in 0..60_000 {
+        let (r, v) = hard_case(&mut dice);
+        let (got, want) = (meet::<ExactVolumes, f64>(&r, v), exact::triangle(&r, v));
+        assert_eq!(got.mask, want.is_some(), "{r:?} {v:?}");
+        if let Some(want) = want {
+            hits += 1;
+            on_edges += usize::from(got.u == 0.0 || got.v == 0.0 || got.u + got.v == 1.0);
+            assert!((got.t - want).abs() <= 1e-9 * want.abs(), "{:e} for {want:e} of {r:?} {v:?}", got.t);
+        }
+    }
+    assert!(hits > 10_000 && on_edges > 3_000, "{hits} {on_edges}");
+}
+
+/// Eight triangles for one ray: candidates hold all that the plain test accepts, and the test of a candidate says the same.
+#[test]
+fn candidates_of_the_exact_test_say_the_same() {
+    let mut dice = Dice(15);
+    for _ in 0..5_000 {
+        let (r, _) = hard_case(&mut dice);
+        let mut corners = [[[0.0f32; 8]; 3]; 3];
+        let triangles: [[Vec3<f64>; 3]; 8] = std::array::from_fn(|_| hard_case(&mut dice).1);
+        for (i, v) in triangles.iter().enumerate() {
+            for (k, corner) in v.iter().enumerate() {
+                for (axis, x) in corner.get(0).into_iter().enumerate() {
+                    corners[k][axis][i] = x as f32;
+                }
+            }
+        }
+        let prepared = ExactVolumes::prepare_one(&r);
+        let bits = ExactVolumes::candidates::<f64x8>(&r, &prepared, &corners);
+        for (i, &v) in triangles.iter().enumerate() {
+            let want = meet::<ExactVolumes, f64>(&r, v);
+            let got = ExactVolumes::test_candidate(&r, &prepared, v, f64::INFINITY);
+            assert!(!want.mask || bits >> i & 1 != 0);
+            assert_eq!((got.mask, got.t.to_bits()), (want.mask, want.t.to_bits()));
         }
     }
 }
@@ -219,7 +281,12 @@ fn no_closed_mesh_leaks_in_the_watertight_tier() {
 fn no_closed_mesh_leaks_in_the_exact_tier() {
     let mut dice = Dice(22);
     for (mesh, count) in [(cube(), 40_000), (icosphere(3), 20_000)] {
-        assert_eq!(leaks::<Woop, f64x8>(&mesh, count, &mut dice), 0, "{} triangles", mesh.triangles.len());
+        assert_eq!(
+            leaks::<ExactVolumes, f64x8>(&mesh, count, &mut dice),
+            0,
+            "{} triangles",
+            mesh.triangles.len()
+        );
     }
 }
 

@@ -180,12 +180,13 @@ fn within_own_box<L: Lane>(
         return LaneHit::none();
     }
     let (t, at_u, at_v) = refine(ray, v);
-    let hit = LaneHit { mask, t: t.clamp(first, last), u: at_u, v: at_v };
+    let mut hit = LaneHit { mask, t: t.clamp(first, last), u: at_u, v: at_v };
     let doubtful = mask & !near::at_glance(ray, v, &hit, own.magnitude(lo, hi));
     if doubtful.any() {
-        return near::settle(ray, v, (first, last), hit, doubtful);
+        hit = near::settle(ray, v, (first, last), hit, doubtful);
     }
-    hit
+    // A zero of either sign becomes the positive one: equal distances have equal bits.
+    LaneHit { t: hit.t + L::zero(), ..hit }
 }
 
 /// Lanes whose rays pass on the same side of the three edges, or on one; from the corners' coordinates across the ray.

@@ -34,5 +34,6 @@ pub use report::{BuildReport, ClassReport, EngineReport, Report, SceneReport, Se
 pub use roofline::box_tests_a_second;
 pub use run::{BenchError, Options, PeerScene, bench_scene};
 pub use subject::{Subject, Target, View};
+pub(super) use table::aligned;
 pub use table::table;
 pub use timing::Spread;

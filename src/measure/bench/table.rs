@@ -141,7 +141,7 @@ fn build_rows(report: &Report) -> Vec<Row> {
 }
 
 /// Columns of one width each: words to the left, numbers to the right.
-pub(super) fn aligned(rows: &[Row]) -> String {
+pub(in crate::measure) fn aligned(rows: &[Row]) -> String {
     let columns = rows.iter().map(Vec::len).max().unwrap_or(0);
     let cell = |row: usize, column: usize| rows[row].get(column).map_or("", String::as_str);
     let width = |column| (0..rows.len()).map(|row| cell(row, column).chars().count()).max().unwrap_or(0);

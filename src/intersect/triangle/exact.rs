@@ -1,0 +1,192 @@
+//! The exact triangle test.
+//!
+//! Plainly: the ray meets the triangle if the tetrahedra that its direction spans with the three edges have volumes of one
+//! sign, zeros counting for either; `t` is a quotient of two more volumes. Departures:
+//! - `f64` decides where the volumes are larger than a bound on their rounding error; the other lanes, few but on the edges
+//!   of meshes, are decided one by one with expansions, which do not round (Shewchuk 1997);
+//! - so are `t`, `u` and `v` where their quotients would cancel;
+//! - a hit must lie in the triangle's own box ([`OwnBox`]), as in the watertight test. No exact hit is lost by that: it
+//!   confines what is left of rounding to what every tree box holds.
+
+use crate::intersect::aabb::OwnBox;
+use crate::intersect::{LaneHit, RayLanes, TriangleTest};
+use crate::math::{Expansion, Lane, Mask, Pair, Real, Vec3, WIDTH, gamma_of, three, two_sum};
+
+/// See the module.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct ExactVolumes;
+
+/// Roundings in a volume of differences: 2 of the differences, 1 of each product, 1 of each sum; and as many again.
+const ROUNDINGS: u32 = 16;
+
+/// Quotients of volumes below this share of the product of their sides have lost more than 31 of 53 bits.
+const LEAST_SHARE: f64 = 1.0 / 131_072.0;
+
+impl TriangleTest for ExactVolumes {
+    type Prepared<L: Lane> = OwnBox<L>;
+
+    #[inline(always)]
+    fn prepare<L: Lane>(ray: &RayLanes<L>) -> OwnBox<L> {
+        OwnBox::new(ray.origin, ray.direction)
+    }
+
+    #[inline(always)]
+    fn test<L: Lane>(ray: &RayLanes<L>, own: &OwnBox<L>, v: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
+        let sides = Sides::of(&ray.widen(), three(|k| v[k].widen()));
+        let mut mask = L::narrow_mask(sides.inside);
+        let doubtful = L::narrow_mask(sides.doubtful).bits();
+        if doubtful != 0 {
+            mask = mask | L::Mask::from_bits(inside_exactly(doubtful, ray, v));
+        }
+        if !mask.any() {
+            return LaneHit::none();
+        }
+        let (lo, hi) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
+        let (first, last) = own.interval(lo, hi);
+        let mask = mask & first.le(last) & ray.t_min.le(last) & first.le(limit);
+        if !mask.any() {
+            return LaneHit::none();
+        }
+        let (t, u, v) = coordinates(mask, ray, v);
+        // A zero of either sign becomes the positive one: equal distances have equal bits.
+        LaneHit { mask, t: t.clamp(first, last) + L::zero(), u, v }
+    }
+
+    type OneRay<R: Real> = OwnBox<R>;
+
+    #[inline(always)]
+    fn prepare_one<R: Real>(ray: &RayLanes<R>) -> OwnBox<R> {
+        Self::prepare(ray)
+    }
+
+    #[inline(always)]
+    fn candidates<L: Lane>(
+        ray: &RayLanes<L::Scalar>,
+        _: &OwnBox<L::Scalar>,
+        corners: &[[[f32; WIDTH]; 3]; 3],
+    ) -> u32 {
+        let corners = three(|v| Vec3::<L>::load_f32(&corners[v]).widen());
+        let sides = Sides::of(&RayLanes::<L>::splat(ray).widen(), corners);
+        (sides.inside | sides.doubtful).bits()
+    }
+
+    #[inline(always)]
+    fn test_candidate<R: Real>(ray: &RayLanes<R>, own: &OwnBox<R>, v: [Vec3<R>; 3], limit: R) -> LaneHit<R> {
+        Self::test(ray, own, v, limit)
+    }
+}
+
+/// On which sides of the edges rays pass: certainly inside of all, or not certainly outside of any.
+struct Sides<D: Lane> {
+    inside: D::Mask,
+    doubtful: D::Mask,
+}
+
+impl<D: Lane<Scalar = f64>> Sides<D> {
+    #[inline(always)]
+    fn of(ray: &RayLanes<D>, v: [Vec3<D>; 3]) -> Self {
+        let d = ray.direction;
+        let [a, b, c] = three(|k| v[k] - ray.origin);
+        let error = size(d) * D::constant(gamma_of(ROUNDINGS, f64::ROUNDOFF));
+        let edge = |p: Vec3<D>, q: Vec3<D>| {
+            let (volume, error) = (d.dot(p.cross(q)), size(p) * size(q) * error);
+            (volume.gt(error), volume.lt(-error), volume.is_finite())
+        };
+        let [(p0, n0, f0), (p1, n1, f1), (p2, n2, f2)] = [edge(b, c), edge(c, a), edge(a, b)];
+        let inside = (p0 & p1 & p2) | (n0 & n1 & n2);
+        let outside = (p0 | p1 | p2) & (n0 | n1 | n2);
+        // Padding is NaN, which no doubt is about.
+        Self { inside, doubtful: !(inside | outside) & (f0 & f1 & f2) }
+    }
+}
+
+/// The sum of magnitudes: the product of three is at least that of all terms of their determinant.
+#[inline(always)]
+fn size<D: Lane>(v: Vec3<D>) -> D {
+    v.x.abs() + v.y.abs() + v.z.abs()
+}
+
+/// Of the lanes given as bits, those that are inside.
+#[cold]
+fn inside_exactly<L: Lane>(lanes: u32, ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> u32 {
+    let inside = |i: usize| Lane1::of(i, ray, v).weights().is_inside();
+    (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0 && inside(*i)).map(|i| 1 << i).sum()
+}
+
+/// `t, u, v` of the lanes of the mask.
+#[inline(always)]
+fn coordinates<L: Lane>(mask: L::Mask, ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> (L, L, L) {
+    let corners = three(|k| v[k].widen());
+    let (d, s) = (ray.direction.widen(), ray.origin.widen() - corners[0]);
+    let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
+    let (p, q) = (d.cross(e2), s.cross(e1));
+    let (slope, height) = (e1.dot(p), e2.dot(q));
+    let least = size(e1) * size(e2) * Lane::constant(LEAST_SHARE);
+    let good = slope.abs().gt(least * size(d)) & height.abs().gt(least * size(s));
+    let scale = <L::Double as Lane>::one() / slope;
+    let mut found = [height * scale, s.dot(p) * scale, d.dot(q) * scale].map(L::narrow);
+    let bad = (mask & !L::narrow_mask(good)).bits();
+    if bad != 0 {
+        coordinates_exactly(bad, ray, v, &mut found);
+    }
+    let (zero, one) = (L::zero(), L::one());
+    let u = found[1].clamp(zero, one);
+    (found[0], u, found[2].clamp(zero, one - u))
+}
+
+/// Replaces the lanes given as bits.
+#[cold]
+fn coordinates_exactly<L: Lane>(lanes: u32, ray: &RayLanes<L>, v: [Vec3<L>; 3], found: &mut [L; 3]) {
+    for i in (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0) {
+        let lane = L::Mask::from_bits(1 << i);
+        let exact = Lane1::of(i, ray, v).coordinates();
+        for (found, exact) in found.iter_mut().zip(exact) {
+            *found = L::select(lane, L::constant(exact), *found);
+        }
+    }
+}
+
+/// One ray and one triangle.
+struct Lane1 {
+    origin: [f64; 3],
+    direction: [f64; 3],
+    corners: [[f64; 3]; 3],
+}
+
+impl Lane1 {
+    fn of<L: Lane>(i: usize, ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> Self {
+        let exactly = |v: Vec3<L>| v.get(i).map(Real::to_f64);
+        Self { origin: exactly(ray.origin), direction: exactly(ray.direction), corners: v.map(exactly) }
+    }
+
+    fn weights(&self) -> Weights {
+        let [a, b, c] = self.corners.map(|corner| difference(corner, self.origin));
+        let d = self.direction.map(|x| [x, 0.0]);
+        Weights([(&b, &c), (&c, &a), (&a, &b)].map(|(p, q)| Expansion::determinant(&d, p, q)))
+    }
+
+    fn coordinates(&self) -> [f64; 3] {
+        let [v0, v1, v2] = self.corners;
+        let (e1, e2) = (difference(v1, v0), difference(v2, v0));
+        let slope = Expansion::determinant(&self.direction.map(|x| [x, 0.0]), &e1, &e2).value();
+        let height = Expansion::determinant(&difference(v0, self.origin), &e1, &e2).value();
+        let Weights([_, u, v]) = self.weights();
+        [height / slope, u.value() / slope, v.value() / slope]
+    }
+}
+
+/// Volumes of direction and edge, which are the weights of the opposite corners.
+struct Weights([Expansion; 3]);
+
+impl Weights {
+    /// All of one sign or zero, but not all zero, as they are for a triangle seen edge-on.
+    fn is_inside(&self) -> bool {
+        let signs = self.0.map(|volume| volume.sign());
+        let (low, high) = (signs.into_iter().min(), signs.into_iter().max());
+        (low >= Some(0) || high <= Some(0)) && signs != [0; 3]
+    }
+}
+
+fn difference(a: [f64; 3], b: [f64; 3]) -> [Pair; 3] {
+    three(|k| two_sum(a[k], -b[k]))
+}

@@ -1,0 +1,107 @@
+//! What each tier promises, family by family: the documented bounds that `octray verify` measures against.
+
+use super::tally::Fault;
+use crate::intersect::TierName;
+
+/// What a family may hold a tier to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Promise {
+    /// Closed meshes.
+    Closed,
+    /// Triangles within the domain.
+    Triangles,
+    /// Triangles seen edge-on, where `f32` edges leave `t` anywhere between the corners.
+    EdgeOn,
+    /// Spheres within the domain.
+    Spheres,
+    /// Cylinders within the domain, alone or beside others.
+    Cylinders,
+    /// Shapes and distances of very different magnitude.
+    Magnitudes,
+    /// Boxes.
+    Boxes,
+    /// Rays that leave surfaces.
+    Leaving,
+    /// Paths through glass.
+    Glass,
+    /// Paths through gaps that only `f64` resolves.
+    Contact,
+    /// Beyond the domain: measured, not promised.
+    None,
+}
+
+/// The most that is allowed; `None` where nothing is promised.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Bounds {
+    /// False misses and false hits a million rays.
+    pub wrong: Option<f64>,
+    /// False misses alone.
+    pub missed: Option<f64>,
+    /// Those that no change of the input by 16 roundoffs excuses.
+    pub gross: Option<f64>,
+    /// Rays through closed surfaces.
+    pub leaks: Option<f64>,
+    /// Rays that hit the surface that they leave, or stray from their path.
+    pub self_hits: Option<f64>,
+    /// Answers that depend on how rays are asked.
+    pub differing: Option<f64>,
+    /// 99th percentile of the error of `t` in ulps of `f32`.
+    pub t_p99: Option<f64>,
+}
+
+const NOTHING: Bounds = Bounds {
+    wrong: None,
+    missed: None,
+    gross: None,
+    leaks: None,
+    self_hits: None,
+    differing: None,
+    t_p99: None,
+};
+
+impl Promise {
+    /// The bounds of a tier.
+    pub fn bounds(self, tier: TierName) -> Bounds {
+        let zero = Some(0.0);
+        let differing = if tier == TierName::Fast { None } else { zero };
+        match (self, tier) {
+            (Self::Boxes, _) => Bounds { missed: zero, differing, ..NOTHING },
+            (_, TierName::Fast) => NOTHING,
+            (Self::None, _) => Bounds { differing, ..NOTHING },
+            (Self::Contact, TierName::Watertight) => NOTHING,
+            (Self::Leaving | Self::Glass | Self::Contact, _) => Bounds { self_hits: zero, ..NOTHING },
+            (_, TierName::Watertight) => self.watertight(),
+            (_, TierName::Exact) => self.exact(),
+        }
+    }
+
+    fn watertight(self) -> Bounds {
+        let zero = Some(0.0);
+        let t_p99 = match self {
+            Self::EdgeOn => None,
+            Self::Cylinders => Some(12.0),
+            _ => Some(5.0),
+        };
+        let leaks = if self == Self::Closed { zero } else { None };
+        Bounds { gross: zero, differing: zero, leaks, t_p99, ..NOTHING }
+    }
+
+    fn exact(self) -> Bounds {
+        let t_p99 = Some(if self == Self::Magnitudes { 1.0 } else { 0.5 });
+        Bounds { wrong: Some(0.0), t_p99, ..self.watertight() }
+    }
+}
+
+impl Bounds {
+    /// The most of a kind of error a million rays.
+    pub(super) fn of(&self, fault: Fault) -> Option<f64> {
+        match fault {
+            Fault::FalseMiss => self.wrong.or(self.missed),
+            Fault::FalseHit => self.wrong,
+            Fault::GrossMiss | Fault::GrossHit => self.gross,
+            Fault::Leak => self.leaks,
+            Fault::SelfHit => self.self_hits,
+            Fault::Differing => self.differing,
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! Families of hard cases, each a function of a seed.
+
+mod aim;
+mod boxes;
+mod closed;
+mod cylinders;
+mod mixed;
+mod paths;
+mod spheres;
+mod triangles;
+
+pub(super) use paths::PATHS;
+
+use super::bounds::Promise;
+use super::tally::Tally;
+use super::trial::Trial;
+use crate::intersect::TierName;
+use crate::intersect::testing::dice::Dice;
+
+/// A named set of hard cases, without end.
+#[derive(Clone, Copy, Debug)]
+pub struct Family {
+    /// Name, as chosen on the command line.
+    pub name: &'static str,
+    /// What is hard about it.
+    pub about: &'static str,
+    /// Which bounds hold.
+    pub promise: Promise,
+    make: Make,
+}
+
+/// What becomes of a seed.
+#[derive(Clone, Copy, Debug)]
+enum Make {
+    /// Rays for any intersector.
+    Rays(fn(&mut Dice) -> Trial),
+    /// Paths that octray walks by itself, tier by tier.
+    Paths([fn(&mut Dice, &mut Tally); 3]),
+}
+
+impl Family {
+    /// All families.
+    pub fn all() -> impl Iterator<Item = &'static Self> {
+        let tables =
+            [closed::FAMILIES, triangles::FAMILIES, spheres::FAMILIES, cylinders::FAMILIES, boxes::FAMILIES];
+        tables.into_iter().chain([mixed::FAMILIES, paths::FAMILIES]).flatten()
+    }
+
+    /// The family of a name.
+    pub fn named(name: &str) -> Option<&'static Self> {
+        Self::all().find(|family| family.name == name)
+    }
+
+    /// Trial `number` of a seed: always the same. Nothing for paths, which start where an intersector's rays hit.
+    pub fn trial(&self, seed: u64, number: u64) -> Option<Trial> {
+        match self.make {
+            Make::Rays(make) => Some(make(&mut self.dice(seed, number))),
+            Make::Paths(_) => None,
+        }
+    }
+
+    /// The trials of a seed, one after the other.
+    pub fn trials(&self, seed: u64) -> impl Iterator<Item = Trial> + use<'_> {
+        (0..).map_while(move |number| self.trial(seed, number))
+    }
+
+    pub(super) fn is_walked(&self) -> bool {
+        matches!(self.make, Make::Paths(_))
+    }
+
+    /// Walks some paths in a tier, if this is a family of paths.
+    pub(super) fn walk(&self, tier: TierName, seed: u64, number: u64) -> Option<Tally> {
+        let Make::Paths(walks) = self.make else { return None };
+        let mut tally = Tally::default();
+        walks[tier as usize](&mut self.dice(seed, number), &mut tally);
+        Some(tally)
+    }
+
+    fn dice(&self, seed: u64, number: u64) -> Dice {
+        let words = self.name.bytes().map(u64::from).chain([seed, number]);
+        Dice(words.fold(0, |state, word| Dice(state ^ word).word()))
+    }
+}
