@@ -35,7 +35,7 @@ const FEATURE_WIDTH_DEG: f64 = 0.082;
 ///
 /// **Needs:** pictures of one size with values from 0 to 1.
 pub fn flip(a: &Colors, b: &Colors) -> Vec<f64> {
-    let [seen_a, seen_b] = [a, b].map(|picture| Seen::of(picture));
+    let [seen_a, seen_b] = [a, b].map(Seen::of);
     let largest = hyab(hunt(lab([0.0, 1.0, 0.0])), hunt(lab([0.0, 0.0, 1.0]))).powf(COLOR_EXPONENT);
     (0..a.values.len())
         .map(|i| {
