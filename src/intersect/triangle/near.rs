@@ -4,7 +4,7 @@
 //! be far from the triangle, for two reasons: the ray grazes the plane, so that a roundoff aside is a long way along; or
 //! it runs in the plane within rounding, where the signs of the edge functions mean nothing. So `o + t d` is held against
 //! the point of the triangle with the weights `u, v`. Where they are not the same within rounding, `t` becomes that of
-//! the ray's first approach to an edge, and a ray that comes near none has no hit.
+//! the ray's closest approach to an edge, and a ray that comes near none has no hit.
 //!
 //! No closed mesh leaks by that. Of the triangles around the ray one holds it exactly as seen in the rounded sheared
 //! coordinates, whose signs are never wrong, only 0. Each of these coordinates is off by at most 6 roundoffs of the largest
@@ -79,17 +79,18 @@ struct Scalar<R> {
 }
 
 impl<R: Real> Scalar<R> {
-    /// The hit as it is if it lies at the triangle, else where the ray first comes to an edge, if it does.
+    /// The hit as it is if it lies at the triangle, else where the ray comes closest to an edge, if that is close.
     fn settle(&self, [t, u, v]: [R; 3]) -> Option<[R; 3]> {
-        if self.is_near(t, [u.to_f64(), v.to_f64()]) {
+        if self.roundoffs_apart(t, [u.to_f64(), v.to_f64()]) <= NEAR_ROUNDOFFS {
             return Some([t, u, v]);
         }
-        let approaches = (0..3).filter_map(|edge| self.approach(edge));
-        approaches.reduce(|a, b| if b[0] < a[0] { b } else { a })
+        let approaches = [self.approach(0), self.approach(1), self.approach(2)];
+        let near = approaches.into_iter().filter(|(apart, _)| *apart <= NEAR_ROUNDOFFS);
+        near.reduce(|a, b| if b.0 < a.0 { b } else { a }).map(|(_, hit)| hit)
     }
 
-    /// The closest approach to edge `i`, from corner `i` to the next, if it is close.
-    fn approach(&self, i: usize) -> Option<[R; 3]> {
+    /// The closest approach to edge `i`, from corner `i` to the next, and how close it is.
+    fn approach(&self, i: usize) -> (f64, [R; 3]) {
         let corners = self.corners.map(Vec3::widen);
         let (o, d) = (self.ray.origin.widen(), self.ray.direction.widen());
         let (start, edge) = (corners[i] - o, corners[(i + 1) % 3] - corners[i]);
@@ -102,15 +103,19 @@ impl<R: Real> Scalar<R> {
         let mut weights = [0.0; 3];
         (weights[i], weights[(i + 1) % 3]) = (1.0 - share, share);
         let [_, u, v] = weights;
-        self.is_near(t, [u, v]).then(|| [t, R::from_f64(u), R::from_f64(v)])
+        (self.roundoffs_apart(t, [u, v]), [t, R::from_f64(u), R::from_f64(v)])
     }
 
-    fn is_near(&self, t: R, [u, v]: [f64; 2]) -> bool {
+    /// How far, by axis and in roundoffs of the magnitude, `o + t d` is from the point of the triangle with weights `u, v`.
+    fn roundoffs_apart(&self, t: R, [u, v]: [f64; 2]) -> f64 {
         let [a, b, c] = self.corners.map(Vec3::widen);
         let o = self.ray.origin.widen();
         let apart = o + self.ray.direction.widen() * t.to_f64() - (a * (1.0 - u - v) + b * u + c * v);
         let size = a.abs().max(b.abs()).max(c.abs()).max_component();
         let magnitude = o.abs().max_component() + size;
-        within(apart, magnitude * NEAR_ROUNDOFFS * f32::ROUNDOFF)
+        let (apart, limit) = (apart.abs(), magnitude * f32::ROUNDOFF);
+        // The sum is NaN if any is: such a point is nowhere near.
+        let is_point = (apart.x + apart.y + apart.z).is_finite();
+        if is_point { apart.max_component() / limit } else { f64::INFINITY }
     }
 }

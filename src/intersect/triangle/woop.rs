@@ -202,11 +202,15 @@ fn inside_edges<L: Lane>([(ax, ay), (bx, by), (cx, cy)]: [(L, L); 3]) -> L::Mask
     same_side & (det.lt(zero) | det.gt(zero))
 }
 
-/// `t, u, v` in `f64`. A plane seen exactly edge-on gives no finite `t`: then any `t` inside the own box will do, and
-/// the caller's clamp picks its first (NaN becomes the lower bound), which is then held against the triangle.
+/// `t, u, v` in `f64`. The plane of a triangle seen nearly edge-on is met anywhere along the ray, so `t` is confined to
+/// where the corners lie along it (NaN becomes the nearest), and what comes of it is held against the triangle.
 #[inline(always)]
 fn refine<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> (L, L, L) {
-    let (t, u, v) = plane_coordinates(ray.origin.widen(), ray.direction.widen(), three(|k| v[k].widen()));
+    let (origin, direction, corners) = (ray.origin.widen(), ray.direction.widen(), three(|k| v[k].widen()));
+    let (t, u, v) = plane_coordinates(origin, direction, corners);
+    let scale = <L::Double as Lane>::one() / direction.length_squared();
+    let [a, b, c] = three(|k| (corners[k] - origin).dot(direction) * scale);
+    let t = t.clamp(a.min(b).min(c), a.max(b).max(c));
     let (zero, one) = (L::zero(), L::one());
     let u = L::narrow(u).clamp(zero, one);
     let v = L::narrow(v).clamp(zero, one - u);
