@@ -223,15 +223,22 @@ pub trait Block {
     }
 }
 
+/// What all blocks of primitives say of themselves in the same way.
+macro_rules! counted {
+    () => {
+        #[inline(always)]
+        fn count(&self) -> u32 {
+            self.len
+        }
+        #[inline(always)]
+        fn ids(&self) -> &[u32; WIDTH] {
+            &self.id
+        }
+    };
+}
+
 impl Block for TriangleBlock {
-    #[inline(always)]
-    fn count(&self) -> u32 {
-        self.len
-    }
-    #[inline(always)]
-    fn ids(&self) -> &[u32; WIDTH] {
-        &self.id
-    }
+    counted!();
     #[inline(always)]
     fn extent(&self, axis: usize) -> [f32x8; 2] {
         let [a, b, c] = three(|v| f32x8::new(self.corner[v][axis]));
@@ -244,14 +251,7 @@ impl Block for TriangleBlock {
 }
 
 impl Block for SphereBlock {
-    #[inline(always)]
-    fn count(&self) -> u32 {
-        self.len
-    }
-    #[inline(always)]
-    fn ids(&self) -> &[u32; WIDTH] {
-        &self.id
-    }
+    counted!();
     #[inline(always)]
     fn extent(&self, axis: usize) -> [f32x8; 2] {
         let (center, radius) = (f32x8::new(self.center[axis]), f32x8::new(self.radius));
@@ -261,14 +261,7 @@ impl Block for SphereBlock {
 
 /// The box of the balls around both ends holds the cylinder.
 impl Block for CylinderBlock {
-    #[inline(always)]
-    fn count(&self) -> u32 {
-        self.len
-    }
-    #[inline(always)]
-    fn ids(&self) -> &[u32; WIDTH] {
-        &self.id
-    }
+    counted!();
     #[inline(always)]
     fn extent(&self, axis: usize) -> [f32x8; 2] {
         let (from, to) = (f32x8::new(self.from[axis]), f32x8::new(self.to[axis]));

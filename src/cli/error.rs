@@ -38,8 +38,8 @@ impl CliError {
     /// An error whose text is that of `cause`.
     pub fn of(exit: Exit, cause: impl Error + Send + Sync + 'static) -> Self {
         let context = cause.to_string();
-        // The text is already there; what lies below it is not.
-        let below = cause.source().map(|below| chain(below).into());
+        // The text is already there; what lies below it is not, unless the text ends with it.
+        let below = cause.source().map(chain).filter(|below| !context.ends_with(below)).map(Into::into);
         Self { exit, context, cause: below, told: false }
     }
 
@@ -109,13 +109,16 @@ pub(super) fn end_program(error: &CliError) -> ! {
     std::process::exit(error.exit as i32)
 }
 
-/// The texts of an error and all behind it.
+/// The texts of an error and all behind it, but for those that the one before ends with.
 fn chain(error: &dyn Error) -> String {
     let mut text = error.to_string();
     let mut next = error.source();
     while let Some(cause) = next {
-        text.push_str(": ");
-        text.push_str(&cause.to_string());
+        let more = cause.to_string();
+        if !text.ends_with(&more) {
+            text.push_str(": ");
+            text.push_str(&more);
+        }
         next = cause.source();
     }
     text
@@ -133,6 +136,9 @@ mod tests {
         let error = CliError::from(OutputError::Write { path: PathBuf::from("a.png"), cause });
         assert_eq!(error.to_string(), "cannot write a.png: no storage space");
         assert_eq!(error.exit(), Exit::Failed);
+        let source = io::Error::from(io::ErrorKind::NotFound);
+        let missing = crate::load::LoadError::Read { path: PathBuf::from("a.obj"), source };
+        assert_eq!(CliError::of(Exit::Scene, missing).to_string(), "a.obj: cannot be read: entity not found");
         let error = CliError::new(Exit::Scene, "scene").because(error);
         assert_eq!(error.to_string(), "scene: cannot write a.png: no storage space");
     }

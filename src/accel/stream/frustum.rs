@@ -193,7 +193,7 @@ impl Frustum {
         }
     }
 
-    /// With the order of visits; `None` where squares of coordinates overflow.
+    /// With the order of visits; `None` where coordinates are so large that a bound overflows.
     fn oriented(mut self) -> Option<Self> {
         let [x, y, z] = self.view.axes;
         let backward = |s: [f32x8; 2]| usize::from(s[0].get(0) + s[1].get(0) < 0.0);
