@@ -2,7 +2,8 @@
 
 use super::block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
 use super::build::{BuildPrimitive, Cuttable, KINDS, MAX_DEPTH, Quality, Tree, build};
-use super::{Accel, BuiltGroup, PlacedTree, TreeRoot};
+use super::instance::{PlacedTree, Placement, TreeRoot};
+use super::{Accel, BuiltGroup};
 use crate::geometry::{Geometry, Group, Instance, Triangles, row3};
 use crate::intersect::PrimKind;
 use crate::math::{Aabb, WIDTH};
@@ -69,11 +70,11 @@ impl Accel {
             bounds[i] = built.tree.bounds;
             roots[i] = accel.append(geometry, built);
         }
-        let placed: Vec<Aabb> = geometry.instances.iter().map(|i| instance_bounds(i, &bounds)).collect();
+        let placed = Placement::of(geometry, &bounds);
         let world = geometry.groups.first().cloned().unwrap_or_default();
-        let built = group_tree(geometry, &world, &placed, quality);
+        let built = group_tree(geometry, &world, &placed.boxes, quality);
         accel.bounds = built.tree.bounds;
-        accel.world = accel.append(geometry, built);
+        accel.world = TreeRoot { way_in: placed.way_in, ..accel.append(geometry, built) };
         if let Some(root) = roots.first_mut() {
             *root = accel.world;
         }
@@ -116,7 +117,7 @@ impl Accel {
         by[PrimKind::Cylinder as usize] = self.cylinders.len() as u32;
         by[Self::INSTANCE as usize] = self.instance_blocks.len() as u32;
         tree.offset(&by);
-        let root = TreeRoot { node: by[0], scale: tree.bounds.magnitude() };
+        let root = TreeRoot::new(by[0], &tree.bounds);
         pack(&mut self.triangles, &tree, &rows, PrimKind::Triangle as u8, |r| {
             TriangleBlock::pack(geometry, r)
         });
@@ -161,13 +162,4 @@ fn group_tree(geometry: &Geometry, group: &Group, instances: &[Aabb], quality: Q
     let cuttable = GroupTriangles { triangles: &geometry.triangles, rows: triangles.clone() };
     let tree = build(&primitives, quality, &cuttable);
     GroupTree { tree, rows: Rows { triangles, spheres, cylinders } }
-}
-
-/// The box of an instance, grown by what rounding does to rays on their way into its space: 64 roundoffs of the largest
-/// coordinate on either side of the transform.
-pub(super) fn instance_bounds(instance: &Instance, groups: &[Aabb]) -> Aabb {
-    let local = groups[instance.group];
-    let local = local.padded(local.magnitude() * crate::math::gamma(64));
-    let world = instance.to_world.bounds(&local);
-    world.padded(world.magnitude() * crate::math::gamma(64))
 }

@@ -2,6 +2,7 @@
 
 use super::Accel;
 use super::block::{Block, CylinderBlock, SphereBlock, TriangleBlock, Walk};
+use super::instance::TreeRoot;
 use super::node::ChildRef;
 use super::query::Query;
 use crate::intersect::aabb::CullRay;
@@ -31,19 +32,20 @@ pub(super) struct PreparedRays<T: Tier> {
 }
 
 impl<T: Tier> PreparedRays<T> {
-    /// Prepares rays for a tree whose coordinates are at most `scale`.
+    /// Prepares rays for a tree.
     #[inline(always)]
-    pub(super) fn new(ray: RayLanes<T::Wide>, scale: f32) -> Self {
-        Self { cull: cull_rays::<T>(&ray, scale), test: TestRays::new(ray) }
+    pub(super) fn new(ray: RayLanes<T::Wide>, tree: TreeRoot) -> Self {
+        Self { cull: cull_rays::<T>(&ray, tree), test: TestRays::new(ray) }
     }
 }
 
-/// Rays prepared for the boxes of a tree whose coordinates are at most `scale`.
+/// Rays prepared for the boxes of a tree.
 #[inline(always)]
-pub(super) fn cull_rays<T: Tier>(ray: &RayLanes<T::Wide>, scale: f32) -> CullRay<wide::f32x8> {
+pub(super) fn cull_rays<T: Tier>(ray: &RayLanes<T::Wide>, tree: TreeRoot) -> CullRay<wide::f32x8> {
     let narrow =
         |v: Vec3<T::Wide>| Vec3 { x: T::nearest_f32(v.x), y: T::nearest_f32(v.y), z: T::nearest_f32(v.z) };
-    CullRay::new(narrow(ray.origin), narrow(ray.direction), wide::f32x8::splat(scale))
+    let origin = narrow(ray.origin);
+    CullRay::new(origin, narrow(ray.direction), tree.scale_for(origin))
 }
 
 /// A block that rays of a tier can be tested against.

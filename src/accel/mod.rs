@@ -6,6 +6,7 @@ pub mod brute;
 pub mod build;
 mod cover;
 mod descend;
+mod instance;
 mod leaf;
 pub mod node;
 mod order;
@@ -26,10 +27,9 @@ use block::{Block, CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
 use node::{ChildRef, Node8};
 
 use crate::geometry::Group;
-use crate::intersect::{PrimKind, RayLanes, Tier};
-use crate::math::{Aabb, Lane, Transform, Vec3};
-use leaf::PreparedRays;
-use query::Query;
+use crate::intersect::PrimKind;
+use crate::math::{Aabb, Vec3};
+use instance::{PlacedTree, TreeRoot};
 
 pub use build::Quality;
 pub(crate) use ray_scene::lanes;
@@ -53,25 +53,11 @@ pub struct Accel {
     stack_bound: usize,
 }
 
-/// Where the tree of a group starts, and the largest coordinate in it.
-#[derive(Clone, Copy, Debug, Default)]
-struct TreeRoot {
-    node: u32,
-    scale: f32,
-}
-
 /// A group as it was built.
 #[derive(Clone, Debug)]
 struct BuiltGroup {
     root: TreeRoot,
     rows: Group,
-}
-
-/// The tree of a group seen through an instance.
-#[derive(Clone, Debug)]
-struct PlacedTree {
-    tree: TreeRoot,
-    to_world: Transform,
 }
 
 impl Accel {
@@ -114,9 +100,9 @@ impl Accel {
     pub(crate) fn nodes(&self) -> (&[Node8], ChildRef) {
         (&self.nodes, ChildRef::node(self.world.node))
     }
-    /// Largest coordinate of the world's tree.
-    pub(crate) fn scale(&self) -> f32 {
-        self.world.scale
+    /// What roundoffs are relative to in the world's tree, beside the coordinates of a ray that starts there.
+    pub(crate) fn scale(&self, origin: Vec3<f32>) -> f32 {
+        self.world.scale_for(origin)
     }
     /// Ids of the primitives in a leaf; none in a leaf of instances.
     pub(crate) fn leaf_ids(&self, leaf: ChildRef) -> &[u32] {
@@ -130,36 +116,5 @@ impl Accel {
             k if k == PrimKind::Cylinder as u8 => counted(&self.cylinders[i]),
             _ => &[],
         }
-    }
-
-    /// Rays in the space of an instance; `t` keeps its meaning, since directions keep their lengths' ratio.
-    #[inline(always)]
-    fn local_rays<L: Lane>(to_world: &Transform, ray: &RayLanes<L>) -> RayLanes<L> {
-        let rows = to_world.inverse_rows().map(|r| r.map(L::Double::splat));
-        let (o, d) = (ray.origin.widen(), ray.direction.widen());
-        let linear = |[x, y, z, _]: [L::Double; 4], v: Vec3<L::Double>| x * v.x + y * v.y + z * v.z;
-        let [r0, r1, r2] = rows;
-        let direction = Vec3 { x: linear(r0, d), y: linear(r1, d), z: linear(r2, d) };
-        let origin = Vec3 { x: linear(r0, o) + r0[3], y: linear(r1, o) + r1[3], z: linear(r2, o) + r2[3] };
-        RayLanes { origin: Vec3::narrow(origin), direction: Vec3::narrow(direction), ..*ray }
-    }
-
-    /// Takes a query through each instance of a leaf, in the space of its group.
-    #[inline(never)]
-    fn visit_instances<T: Tier, Q: Query<T::Wide>>(
-        &self,
-        leaf: ChildRef,
-        ray: &RayLanes<T::Wide>,
-        query: &mut Q,
-        mut traverse: impl FnMut(u32, &PreparedRays<T>, &mut Q),
-    ) {
-        let block = &self.instance_blocks[leaf.index() as usize];
-        for &row in &block.rows[..block.len as usize] {
-            let placed = &self.instances[row as usize];
-            let local = Self::local_rays(&placed.to_world, ray);
-            query.enter_instance(row + 1);
-            traverse(placed.tree.node, &PreparedRays::new(local, placed.tree.scale), query);
-        }
-        query.enter_instance(0);
     }
 }

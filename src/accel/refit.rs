@@ -2,11 +2,11 @@
 
 use rayon::prelude::*;
 
-use super::assemble::instance_bounds;
+use super::Accel;
 use super::block::{Block, CylinderBlock, SphereBlock, TriangleBlock};
+use super::instance::{PlacedTree, Placement, TreeRoot};
 use super::node::ChildRef;
-use super::{Accel, TreeRoot};
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, Instance};
 use crate::intersect::{PrimId, PrimKind};
 use crate::math::{Aabb, WIDTH};
 
@@ -43,10 +43,10 @@ impl Accel {
         for (group, bounds) in bounds.iter_mut().enumerate().skip(1) {
             *bounds = self.refit_group(group, &boxes, &[]);
         }
-        let placed: Vec<Aabb> = geometry.instances.iter().map(|i| instance_bounds(i, &bounds)).collect();
+        let placed = Placement::of(geometry, &bounds);
         if !self.groups.is_empty() {
-            self.bounds = self.refit_group(0, &boxes, &placed);
-            self.world = self.groups[0].root;
+            self.bounds = self.refit_group(0, &boxes, &placed.boxes);
+            self.world = TreeRoot { way_in: placed.way_in, ..self.groups[0].root };
         }
         self.place(geometry);
         Ok(())
@@ -57,7 +57,7 @@ impl Accel {
         let rows = self.groups.iter().map(|group| &group.rows);
         same(rows.eq(&geometry.groups), "groups")?;
         same(self.instances.len() == geometry.instances.len(), "instances")?;
-        let shows = |(built, given): (&super::PlacedTree, &crate::geometry::Instance)| {
+        let shows = |(built, given): (&PlacedTree, &Instance)| {
             self.groups.get(given.group).is_some_and(|group| group.root.node == built.tree.node)
         };
         same(self.instances.iter().zip(&geometry.instances).all(shows), "instances")?;
@@ -111,7 +111,7 @@ impl Accel {
             }
         }
         let whole = bounds.first().copied().unwrap_or(Aabb::EMPTY);
-        self.groups[group].root = TreeRoot { node: start as u32, scale: whole.magnitude() };
+        self.groups[group].root = TreeRoot::new(start as u32, &whole);
         whole
     }
 

@@ -63,8 +63,8 @@ impl<'a> Traversal<'a> {
         hint: Hint,
         query: &mut Q,
     ) {
-        let (accel, root) = (self.accel, self.accel.world.node);
-        let rays = PreparedRays::<T>::new(*ray, accel.world.scale);
+        let (accel, world) = (self.accel, self.accel.world);
+        let (root, rays) = (world.node, PreparedRays::<T>::new(*ray, world));
         if self.together::<T>(ray, hint) {
             return descend::<T, RaysByPrimitive, _>(accel, root, &rays, query, &mut self.packet_stack);
         }
@@ -72,7 +72,7 @@ impl<'a> Traversal<'a> {
             if !query.asks(lane) {
                 continue;
             }
-            let rays = PreparedRays::<T>::new(RayLanes::splat(&ray.get(lane)), accel.world.scale);
+            let rays = PreparedRays::<T>::new(RayLanes::splat(&ray.get(lane)), world);
             let mut alone = query.splat_lane(lane);
             descend::<T, PrimitivesByRay, _>(accel, root, &rays, &mut alone, &mut self.single_stack);
             query.take_lane(lane, &alone);

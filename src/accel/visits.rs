@@ -34,7 +34,7 @@ impl Accel {
     pub fn visits(&self, ray: &Ray) -> Visits {
         type Prepared = <<Watertight as Tier>::Triangle as TriangleTest>::Prepared<f32x8>;
         let lanes = RayLanes::<f32x8>::splat(&RayLanes::from(ray));
-        let cull = CullRay::new(lanes.origin, lanes.direction, f32x8::splat(self.world.scale));
+        let cull = CullRay::new(lanes.origin, lanes.direction, self.world.scale_for(lanes.origin));
         let prepared: Prepared = <Watertight as Tier>::Triangle::prepare(&lanes);
         let octant = (0..3).map(|k| usize::from(ray.direction[k] < 0.0) << k).sum::<usize>();
         let (mut visits, mut limit) = (Visits::default(), ray.t_max);

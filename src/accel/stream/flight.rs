@@ -203,7 +203,8 @@ impl<T: Tier, Q: Query<T::Real>> Slot<T, Q> {
         ask_planes(accel, &ray, &mut query);
         let narrow = |x: T::Real| T::nearest_f32(T::Wide::splat(x)).get(0);
         let narrow3 = |v: Vec3<T::Real>| Vec3::new(narrow(v.x), narrow(v.y), narrow(v.z));
-        let cull = CullRay::new(narrow3(ray.origin), narrow3(ray.direction), accel.world.scale);
+        let origin = narrow3(ray.origin);
+        let cull = CullRay::new(origin, narrow3(ray.direction), accel.world.scale_for(origin));
         let backward = cull.backward();
         Self {
             octant: three(|k| u32::from(backward[k]) << k).into_iter().sum(),

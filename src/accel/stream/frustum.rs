@@ -12,6 +12,7 @@
 
 use wide::f32x8;
 
+use crate::accel::instance::TreeRoot;
 use crate::accel::node::Node8;
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, fused_cross, three};
@@ -125,8 +126,8 @@ impl View {
 impl Frustum {
     /// The pyramid around packets; `None` where they have no axis in common or go too far apart.
     ///
-    /// `scale` is the largest coordinate in the tree. **Needs:** one to eight packets.
-    pub(super) fn around<T: Tier>(packets: &[RayLanes<T::Wide>], apex: Apex, scale: f32) -> Option<Self> {
+    /// **Needs:** one to eight packets.
+    pub(super) fn around<T: Tier>(packets: &[RayLanes<T::Wide>], apex: Apex, tree: TreeRoot) -> Option<Self> {
         let (point, is_target) = match apex {
             Apex::Origin(point) => (point, false),
             Apex::Target(point) => (point, true),
@@ -157,7 +158,8 @@ impl Frustum {
         for j in packets.len()..WIDTH {
             (a[j], b[j]) = (a[0], b[0]);
         }
-        let size = point.iter().fold(scale.max(greatest(far.max_component())), |size, x| size.max(x.abs()));
+        let scale = greatest(tree.scale_for(far).max(far.max_component()));
+        let size = point.iter().fold(scale, |size, x| size.max(x.abs()));
         let close = greatest(astray) <= size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32;
         let packets = Slopes { a: range(a), b: range(b) };
         if !close {

@@ -251,7 +251,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             self.rest -= 1;
             return false;
         }
-        let Some(mut frustum) = Frustum::around::<T>(&self.rays[..queries.len()], apex, world.scale) else {
+        let Some(mut frustum) = Frustum::around::<T>(&self.rays[..queries.len()], apex, world) else {
             return false;
         };
         for (j, query) in queries.iter().enumerate() {

@@ -18,7 +18,7 @@ use super::{Accel, Hint, Traversal, brute};
 use crate::geometry::Geometry;
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::{Exact, Fast, PrimKind, Ray, RayLanes, Tier, Watertight};
-use crate::math::{BitLane, Lane, Real, WIDTH};
+use crate::math::{BitLane, Lane, Real, Transform, WIDTH};
 use scenes::{World, world};
 
 const QUALITIES: [Quality; 3] = [Quality::Fast, Quality::Balanced, Quality::High];
@@ -220,4 +220,16 @@ fn one_and_four_threads_build_the_same_bytes() {
         assert!(one.nodes == four.nodes && one.world.node == four.world.node);
         assert_eq!(format!("{:?}", one.triangles), format!("{:?}", four.triangles));
     }
+}
+
+/// Rays are rounded on their way into an instance: out here that is far more than a roundoff where it is pressed flat.
+#[test]
+fn an_instance_that_is_pressed_flat_loses_no_hit() {
+    let e = 1e-3f32;
+    let place = [[(-46.5f32).next_up(), 0.0, 0.0, 0.0], [0.0, 23.0, 17.5, -e], [-e, -e, -e, 0.0]];
+    let place = Transform::from_rows(place.map(|row| row.map(f64::from)));
+    let world = World::one_instance([[0.0; 3], [0.0, 0.0, -e], [-e; 3]], place.unwrap());
+    let geometry = world.geometry();
+    let ray = Ray { t_min: -0.5, t_max: -e, ..Ray::new([0.0, -e, -e], [-e, -e, -0.5]) };
+    assert_eq!(check::<Watertight>(&geometry, &Accel::build(&geometry), &[ray]), 1);
 }

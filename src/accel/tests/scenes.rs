@@ -94,12 +94,22 @@ fn plane() -> impl Strategy<Value = Shape> {
     (point(), normal).prop_map(|(point, normal)| Shape::Plane(point, normal))
 }
 
-/// Turned, sheared, stretched and mirrored as it comes, but not flattened.
-fn transform() -> impl Strategy<Value = Transform> {
+/// Turned, sheared and mirrored as it comes, but not flattened.
+fn general() -> impl Strategy<Value = Transform> {
     let rows =
         prop::array::uniform3((point(), number()).prop_map(|(a, t)| [a[0], a[1], a[2], t].map(f64::from)));
-    let general = rows.prop_filter_map("a transform has an inverse", |rows| {
+    rows.prop_filter_map("a transform has an inverse", |rows| {
         Transform::from_rows(rows).ok().filter(|t| t.determinant().abs() > 1e-2)
+    })
+}
+
+/// As it comes, along axes, or nearly flat.
+fn transform() -> impl Strategy<Value = Transform> {
+    // What is a roundoff in there is many out here.
+    let pressed = (general(), 0..3usize, prop::sample::select(vec![1e-3, 1e-4])).prop_map(|(t, k, by)| {
+        let mut rows = t.rows();
+        rows[k] = rows[k].map(|x| x * by);
+        Transform::from_rows(rows.map(|row| row.map(|x| 10.0 * x))).expect("not flattened all the way")
     });
     let stretch =
         (prop::array::uniform3(prop::sample::select(vec![-2.0, -1.0, -0.1, 0.25, 1.0, 3.0])), point());
@@ -108,7 +118,7 @@ fn transform() -> impl Strategy<Value = Transform> {
         Transform::from_rows([[x, 0.0, 0.0, a], [0.0, y, 0.0, b], [0.0, 0.0, z, c]])
             .expect("no scale is zero")
     });
-    prop_oneof![general, stretched]
+    prop_oneof![2 => general(), 1 => pressed, 2 => stretched]
 }
 
 /// Worlds of up to about `most` primitives.
@@ -126,6 +136,11 @@ pub(super) fn world(most: usize) -> impl Strategy<Value = World> {
 }
 
 impl World {
+    /// A triangle, seen through an instance.
+    pub(super) fn one_instance(corners: [[f32; 3]; 3], place: Transform) -> Self {
+        Self { shown: vec![Shape::Triangle(corners)], instances: vec![place], ..Self::default() }
+    }
+
     pub(super) fn push_mesh(&mut self, points: &[[f32; 3]], triangles: &[[u32; 3]]) {
         let corners = triangles.iter().map(|t| Shape::Triangle(t.map(|v| points[v as usize])));
         self.shapes.extend(corners);

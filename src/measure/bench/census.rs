@@ -58,7 +58,7 @@ impl Walk<'_> {
     fn go(&mut self, question: Question, ray: &RayLanes<f32>) {
         let accel = &self.subject.accel;
         let (nodes, root) = accel.nodes();
-        let cull = CullRay::new(ray.origin, ray.direction, accel.scale());
+        let cull = CullRay::new(ray.origin, ray.direction, accel.scale(ray.origin));
         let prepared = Test::prepare(ray);
         let mut query = Closest::new(ray.t_max);
         self.stack.clear();
