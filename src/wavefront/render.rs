@@ -16,6 +16,9 @@ use crate::intersect::{Exact, Fast, Tier, TierName, Watertight};
 use crate::math::Real;
 use crate::scene::Scene;
 
+/// Bytes that a full queue with all its columns hardly exceeds; those that stay untouched cost nothing.
+const ARENA: usize = 1 << 20;
+
 /// How a scene is rendered; nothing here changes the bytes of the pixels it renders.
 #[derive(Clone, Copy, Default)]
 pub struct RenderOptions<'a> {
@@ -198,7 +201,7 @@ impl<'a, T: Tier> TileWorker<'a, T> {
                 radiance: SampleSums::default(),
                 rays: RayCounts::default(),
             },
-            arenas: (0..=depths).map(|_| Bump::new()).collect(),
+            arenas: (0..=depths).map(|_| Bump::with_capacity(ARENA)).collect(),
             pixels: Vec::new(),
             sums: Vec::new(),
             weights: Vec::new(),

@@ -258,7 +258,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             frustum.look(j, T::above_f32(query.limit()));
         }
         frustum.update_reach();
-        self.prepared.fill(None);
+        self.prepared.iter_mut().for_each(|prepared| *prepared = None);
         let stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
         let rays = &self.rays[..queries.len()];
