@@ -86,7 +86,7 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
             let node = &accel.nodes[child.index() as usize];
             D::push_children(node, &rays.cull, octant, (t_min, limit), stack);
         } else if child.kind() == Accel::INSTANCE {
-            accel.visit_instances::<T, Q>(child, &rays.test.ray, query, |root, local, query| {
+            accel.visit_instance::<T, Q>(child, &rays.test.ray, query, |root, local, query| {
                 descend::<T, D, Q>(accel, root, local, query, stack)
             });
         } else if with_block(accel, child, &mut AllSteps { rays: &rays.test, query, walk: PhantomData::<D> })

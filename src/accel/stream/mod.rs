@@ -12,14 +12,12 @@ mod flight;
 mod frustum;
 
 use super::Accel;
-use super::leaf::TestRays;
 use super::query::{AnyHit, Closest, Query};
 use super::traversal::{Hint, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Vec3, WIDTH};
-use bundle::{Bundle, Stacks};
+use bundle::{Bundle, Prepared, Stacks};
 use flight::Flight;
-use frustum::Frustum;
 
 pub use columns::{Bound, HitColumns, RayColumns};
 pub use frustum::Apex;
@@ -187,7 +185,7 @@ struct Bundles<'a, T: Tier> {
     accel: &'a Accel,
     traversal: Traversal<'a>,
     rays: Box<[RayLanes<T::Wide>; BUNDLE]>,
-    prepared: Box<[Option<TestRays<T>>; BUNDLE]>,
+    prepared: Box<Prepared<T>>,
     /// Bundles to come that are not tried.
     rest: usize,
 }
@@ -237,7 +235,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
 
     /// False if the rays of a packet had better go alone.
     fn trace_packet<Q: Query<T::Wide>>(&mut self, j: usize, hint: Hint, query: &mut Q) -> bool {
-        if self.accel.instances.is_empty() && !self.traversal.together::<T>(&self.rays[j], hint) {
+        if !self.traversal.together::<T>(&self.rays[j], hint) {
             return false;
         }
         self.traversal.ask_tree::<T, _>(&self.rays[j], hint, query);
@@ -251,19 +249,13 @@ impl<'a, T: Tier> Bundles<'a, T> {
             self.rest -= 1;
             return false;
         }
-        let Some(mut frustum) = Frustum::around::<T>(&self.rays[..queries.len()], apex, world) else {
+        let rays = &self.rays[..queries.len()];
+        let Some(mut bundle) = Bundle::new(rays, apex, world, &mut self.prepared, queries) else {
             return false;
         };
-        for (j, query) in queries.iter().enumerate() {
-            frustum.look(j, T::above_f32(query.limit()));
-        }
-        frustum.update_reach();
-        self.prepared.iter_mut().for_each(|prepared| *prepared = None);
-        let stacks =
+        let mut stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
-        let rays = &self.rays[..queries.len()];
-        let mut bundle = Bundle { frustum, rays, prepared: &mut self.prepared, queries, met: 0 };
-        let done = bundle.descend(self.accel, world.node, stacks);
+        let done = bundle.descend(self.accel, world.node, &mut stacks);
         self.rest = if done { 0 } else { REST };
         done
     }
