@@ -115,7 +115,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         for (j, query) in self.queries.iter_mut().enumerate() {
             if !done {
                 let rays = PreparedRays::new(local[j], placed.tree);
-                descend::<T, RaysByPrimitive, Q>(accel, root, &rays, query, stacks.packet);
+                let _ = descend::<T, RaysByPrimitive, Q>(accel, root, &rays, query, stacks.packet);
             }
             query.enter_instance(0);
             self.frustum.look(j, T::above_f32(query.limit()));

@@ -1,7 +1,7 @@
 //! Many rays at a time: columns of rays in, columns of hits out, each ray by the way that suits it.
 //!
 //! 1. Rays with a common point, eight packets at a time: `bundle`, behind the pyramid of `frustum`.
-//! 2. Packets whose rays go into one octant: together, see [`super::packet`].
+//! 2. Packets whose rays visit much the same: together, see [`super::packet`].
 //! 3. All others: one by one, many at a time.
 //!
 //! Which way a ray takes changes no result.
@@ -235,11 +235,11 @@ impl<'a, T: Tier> Bundles<'a, T> {
 
     /// False if the rays of a packet had better go alone.
     fn trace_packet<Q: Query<T::Wide>>(&mut self, j: usize, hint: Hint, query: &mut Q) -> bool {
-        if !self.traversal.together::<T>(&self.rays[j], hint) {
-            return false;
+        let together = self.traversal.together::<T, Q>(&self.rays[j], hint);
+        if together {
+            self.traversal.ask_together::<T, _>(&self.rays[j], query);
         }
-        self.traversal.ask_tree::<T, _>(&self.rays[j], hint, query);
-        true
+        together
     }
 
     /// False if the packets do not make a bundle, or not a good one.
