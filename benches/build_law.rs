@@ -33,7 +33,7 @@ fn visits(accel: &Accel) -> Visits {
         let (a, b) = (numbers(row, 1), numbers(row, 2));
         let origin = [3.0 * a[0] - 1.5, a[1], 3.0 * a[2] - 1.5];
         let target = [2.0 * b[0] - 1.0, 0.4 * b[1], 2.0 * b[2] - 1.0];
-        all += accel.visits(&Ray::new(origin, std::array::from_fn(|k| target[k] - origin[k])));
+        all += accel.visits(&Ray::new(origin, std::array::from_fn(|k| target[k] - origin[k])), false);
     }
     all
 }

@@ -24,11 +24,10 @@ pub mod validate;
 pub mod visits;
 
 use block::{Block, CylinderBlock, SphereBlock, TriangleBlock};
-use node::{ChildRef, Node8};
+use node::Node8;
 
 use crate::geometry::Group;
-use crate::intersect::PrimKind;
-use crate::math::{Aabb, Vec3};
+use crate::math::Aabb;
 use instance::{PlacedTree, TreeRoot};
 
 pub use build::Quality;
@@ -93,27 +92,5 @@ impl Accel {
             ("tree.instances", size_of_val(&self.instances[..])),
         ];
         sizes.map(|(name, size)| (name.to_owned(), size as u64)).to_vec()
-    }
-
-    /// All nodes, and the root of the world's tree among them, for walks that count.
-    pub(crate) fn nodes(&self) -> (&[Node8], ChildRef) {
-        (&self.nodes, ChildRef::node(self.world.node))
-    }
-    /// What roundoffs are relative to in the world's tree, beside the coordinates of a ray that starts there.
-    pub(crate) fn scale(&self, origin: Vec3<f32>) -> f32 {
-        self.world.scale_for(origin)
-    }
-    /// Ids of the primitives in a leaf; none in a leaf of instances.
-    pub(crate) fn leaf_ids(&self, leaf: ChildRef) -> &[u32] {
-        fn counted(block: &impl Block) -> &[u32] {
-            &block.ids()[..block.count() as usize]
-        }
-        let i = leaf.index() as usize;
-        match leaf.kind() {
-            k if k == PrimKind::Triangle as u8 => counted(&self.triangles[i]),
-            k if k == PrimKind::Sphere as u8 => counted(&self.spheres[i]),
-            k if k == PrimKind::Cylinder as u8 => counted(&self.cylinders[i]),
-            _ => &[],
-        }
     }
 }

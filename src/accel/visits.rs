@@ -1,22 +1,23 @@
 //! How much of a tree a ray visits: the measure of a tree apart from the speed of a machine.
 
-use wide::f32x8;
+use std::marker::PhantomData;
 
 use super::Accel;
 use super::block::PrimitivesByRay;
+use super::descend::{Descend, Octant};
+use super::leaf::{AllSteps, PreparedRays, with_block};
 use super::node::ChildRef;
-use crate::intersect::aabb::CullRay;
-use crate::intersect::{PrimKind, Ray, RayLanes, Tier, TriangleTest, Watertight};
-use crate::math::{Aabb, Lane, Mask, Vec3, WIDTH};
+use super::query::{Closest, Query};
+use crate::intersect::{Ray, RayLanes, Tier, Watertight};
 
-/// What one ray, or many, visited on the way to the nearest triangle.
+/// What one ray, or many, visited.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Visits {
-    /// Nodes.
+    /// Nodes: eight boxes each.
     pub nodes: u64,
-    /// Leaf blocks.
+    /// Leaf blocks of up to eight primitives; instances count as one, and are not entered.
     pub blocks: u64,
-    /// Rays that hit a triangle.
+    /// Rays that hit a primitive of the world's own.
     pub hits: u64,
 }
 
@@ -29,49 +30,34 @@ impl std::ops::AddAssign for Visits {
 }
 
 impl Accel {
-    /// What a ray visits that traverses alone, front to back, through the world's own triangles; blocks of other kinds and
-    /// of instances count, but are not entered.
-    pub fn visits(&self, ray: &Ray) -> Visits {
-        type Prepared = <<Watertight as Tier>::Triangle as TriangleTest>::Prepared<f32x8>;
-        let lanes = RayLanes::<f32x8>::splat(&RayLanes::from(ray));
-        let cull = CullRay::new(lanes.origin, lanes.direction, self.world.scale_for(lanes.origin));
-        let prepared: Prepared = <Watertight as Tier>::Triangle::prepare(&lanes);
-        let octant = (0..3).map(|k| usize::from(ray.direction[k] < 0.0) << k).sum::<usize>();
-        let (mut visits, mut limit) = (Visits::default(), ray.t_max);
-        let mut stack = vec![(f32::NEG_INFINITY, ChildRef::node(self.world.node))];
-        while let Some((near, child)) = stack.pop() {
-            if near > limit {
+    /// What a ray visits that traverses alone, on the way to its nearest hit or, if `any` will do, to the first it finds.
+    ///
+    /// A loop of its own, so that the one that is timed carries no counters.
+    pub fn visits(&self, ray: &Ray, any: bool) -> Visits {
+        let rays = PreparedRays::<Watertight>::new(RayLanes::splat(&RayLanes::from(ray)), self.world);
+        let (octant, t_min) = (Octant::of(&rays.cull), Watertight::below_f32(rays.test.ray.t_min));
+        let (mut visits, mut query) = (Visits::default(), Closest::new(rays.test.ray.t_max));
+        let mut stack = vec![PrimitivesByRay::entry(ChildRef::node(self.world.node))];
+        while let Some(entry) = stack.pop() {
+            let limit = query.limit();
+            if any && visits.hits > 0 || PrimitivesByRay::reaching(&entry, limit) == 0 {
                 continue;
             }
+            let child = entry.child;
             if child.is_node() {
                 visits.nodes += 1;
                 let node = &self.nodes[child.index() as usize];
-                for slot in (0..WIDTH).rev().map(|i| i ^ octant).filter(|&slot| !node.child[slot].is_empty())
-                {
-                    let enter = enters(&cull, &node.bounds(slot), ray.t_min, limit);
-                    stack.extend(enter.map(|near| (near, node.child[slot])));
-                }
+                PrimitivesByRay::push_children(node, &rays.cull, octant, (t_min, limit), &mut stack);
                 continue;
             }
             visits.blocks += 1;
-            if child.kind() == PrimKind::Triangle as u8 {
-                let corners = self.triangles[child.index() as usize].corners::<PrimitivesByRay, _>(0);
-                let hit =
-                    <Watertight as Tier>::Triangle::test(&lanes, &prepared, corners, f32x8::splat(limit));
-                let nearer = (hit.mask & hit.t.gt(lanes.t_min)).bits();
-                let t = (0..WIDTH).filter(|lane| nearer >> lane & 1 != 0).map(|lane| hit.t.get(lane));
-                limit = t.fold(limit, f32::min);
+            let mut steps =
+                AllSteps { rays: &rays.test, query: &mut query, walk: PhantomData::<PrimitivesByRay> };
+            if child.kind() != Self::INSTANCE && with_block(self, child, &mut steps) {
+                query.share_limit();
+                visits.hits = 1;
             }
         }
-        visits.hits = u64::from(limit < ray.t_max);
         visits
     }
-}
-
-/// Where a ray enters a box, if it does before `limit`.
-fn enters(cull: &CullRay<f32x8>, bounds: &Aabb, t_min: f32, limit: f32) -> Option<f32> {
-    let (lo, hi) = (Vec3::splat_f32(bounds.min), Vec3::splat_f32(bounds.max));
-    let (enter, leave) = cull.interval_any(lo, hi, f32x8::splat(t_min), f32x8::splat(limit));
-    let (enter, leave) = (Lane::get(enter, 0), Lane::get(leave, 0));
-    (enter <= leave).then_some(enter)
 }
