@@ -7,6 +7,7 @@ use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
 use super::bench::BenchArgs;
 use super::compare::CompareArgs;
+use super::goal::GoalArgs;
 use super::simd;
 use super::source::SceneSource;
 use super::verify::VerifyArgs;
@@ -90,9 +91,12 @@ pub struct RenderArgs {
     /// Width and height in pixels, such as 640x480
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Samples a pixel
+    /// Samples a pixel; with --max-error or --time-limit the most that a pixel gets [default there: 65536]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub spp: Option<u32>,
+    /// When pixels have samples enough.
+    #[command(flatten)]
+    pub goal: GoalArgs,
     /// How many times a path may be reflected, refracted or scattered
     #[arg(long, value_name = "N")]
     pub max_depth: Option<u32>,
@@ -220,7 +224,12 @@ impl RenderArgs {
             ("render.build_quality", self.build_quality.and_then(BuildQuality::assignment)),
         ];
         let given = flags.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?)));
-        self.scene.assignments.iter().cloned().chain(given).collect()
+        self.goal
+            .assignment()
+            .into_iter()
+            .chain(self.scene.assignments.iter().cloned())
+            .chain(given)
+            .collect()
     }
 }
 

@@ -9,6 +9,7 @@ pub mod compare;
 pub mod completions;
 mod destination;
 mod error;
+mod goal;
 mod human;
 pub mod inspect;
 pub mod man;
@@ -33,5 +34,6 @@ pub use args::{
 pub use bench::BenchArgs;
 pub use compare::CompareArgs;
 pub use error::{CliError, Exit, exit_code};
+pub use goal::GoalArgs;
 pub use source::SceneSource;
 pub use verify::VerifyArgs;

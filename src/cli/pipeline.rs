@@ -11,7 +11,9 @@ use crate::describe::{self, DescribeError, Origin, SceneDescription};
 use crate::load::load_mesh;
 use crate::scene::Scene;
 
-pub(super) use crate::wavefront::{Progress, RenderError, RenderOptions, RenderReport, render};
+pub(super) use crate::wavefront::{
+    Goal, Progress, Reached, RenderError, RenderOptions, RenderReport, render,
+};
 
 /// Endings of meshes, which a scene is framed around.
 const MESHES: [&str; 3] = ["obj", "ply", "stl"];
