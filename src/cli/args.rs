@@ -10,6 +10,7 @@ use super::compare::CompareArgs;
 use super::goal::GoalArgs;
 use super::simd;
 use super::source::SceneSource;
+use super::tradeoff::TradeoffArgs;
 use super::verify::VerifyArgs;
 use crate::intersect::TierName;
 use crate::output::Format;
@@ -47,6 +48,8 @@ pub enum Verb {
     Verify(Box<VerifyArgs>),
     /// Say how far two pictures differ
     Compare(CompareArgs),
+    /// Measure what settings cost and bring, against a converged exact picture
+    Tradeoff(TradeoffArgs),
     /// List the built-in scenes, or print one as a scene file
     Scenes(ScenesArgs),
     /// Print the JSON Schema of scene files

@@ -37,7 +37,7 @@ fn parse_error(text: &str) -> Result<f64, String> {
     error.ok_or_else(|| "expected a number above 0, such as 0.01".into())
 }
 
-fn parse_seconds(text: &str) -> Result<Duration, String> {
+pub(super) fn parse_seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse::<f64>().ok().filter(|seconds| *seconds > 0.0);
     let limit = seconds.and_then(|seconds| Duration::try_from_secs_f64(seconds).ok());
     limit.ok_or_else(|| "expected a number of seconds above 0, such as 2.5".into())

@@ -25,6 +25,7 @@ mod simd;
 mod source;
 mod stdio;
 mod summary;
+pub mod tradeoff;
 pub mod verify;
 
 pub use args::{
@@ -36,4 +37,5 @@ pub use compare::CompareArgs;
 pub use error::{CliError, Exit, exit_code};
 pub use goal::GoalArgs;
 pub use source::SceneSource;
+pub use tradeoff::TradeoffArgs;
 pub use verify::VerifyArgs;
