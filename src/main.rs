@@ -4,7 +4,8 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use octray::cli::{
-    Args, Verb, bench, compare, completions, exit_code, inspect, man, render, scenes, schema, verify,
+    Args, Verb, bench, compare, completions, exit_code, inspect, man, render, scenes, schema, tradeoff,
+    verify,
 };
 
 fn main() -> ExitCode {
@@ -14,6 +15,7 @@ fn main() -> ExitCode {
         Verb::Bench(args) => bench::run(&args),
         Verb::Verify(args) => verify::run(&args),
         Verb::Compare(args) => compare::run(&args),
+        Verb::Tradeoff(args) => tradeoff::run(&args),
         Verb::Scenes(args) => scenes::run(&args),
         Verb::Schema => schema::run(),
         Verb::Completions(args) => completions::run(&args),

@@ -1,10 +1,13 @@
-//! Primitive tests on any bit patterns: eight lanes give the bits of one, and moderate numbers agree with the oracles.
+//! Primitive tests on any bit patterns: eight lanes give the bits of one, and moderate numbers agree with the oracles; the
+//! exact tier decides as rational arithmetic does.
 #![no_main]
+
+mod exact_tier;
 
 use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use libfuzzer_sys::fuzz_target;
 use octray::intersect::aabb::{self, CullRay, OwnBox};
-use octray::intersect::triangle::{MollerTrumbore, Woop};
+use octray::intersect::triangle::{ExactVolumes, MollerTrumbore, Woop};
 use octray::intersect::{Curved, Exact, Fast, LaneHit, RayLanes, Tier, TriangleTest, Watertight};
 use octray::intersect::{cylinder, sphere, triangle};
 use octray::math::{Lane, Mask, Real, Vec3};
@@ -50,7 +53,7 @@ fn a_cylinder<L: Lane>(p: [Vec3<L>; 3]) -> cylinder::Lanes<L> {
 }
 
 /// What every kernel says, as masks and numbers.
-fn run<L: Lane, C: Curved>(cases: &[[f32; 17]]) -> [LaneHit<L>; 6] {
+fn run<L: Lane, C: Curved>(cases: &[[f32; 17]]) -> [LaneHit<L>; 7] {
     let (ray, p) = ray_and_points::<L>(cases);
     let pair = |(t, u)| LaneHit { mask: L::Mask::splat(true), t, u, v: L::zero() };
     let (lo, hi) = (p[0].min(p[1]), p[0].max(p[1]));
@@ -58,6 +61,7 @@ fn run<L: Lane, C: Curved>(cases: &[[f32; 17]]) -> [LaneHit<L>; 6] {
     [
         Woop::test(&ray, &Woop::prepare(&ray), p, ray.t_max),
         MollerTrumbore::test(&ray, &(), p, ray.t_max),
+        ExactVolumes::test(&ray, &ExactVolumes::prepare(&ray), p, ray.t_max),
         C::sphere(&ray, &a_sphere(p)),
         C::cylinder(&ray, &a_cylinder(p)),
         pair(OwnBox::new(ray.origin, ray.direction).interval(lo, hi)),
@@ -169,11 +173,26 @@ fn check_box(ray: &RayLanes<f32>, p: [Vec3<f32>; 3]) {
     }
 }
 
+/// Triangles of any magnitude in the domain, curved surfaces of moderate ones.
+fn check_exact(case: &[f32; 17]) {
+    let (ray, points) = ray_and_points::<f32>(std::slice::from_ref(case));
+    let Some(exact) = exact_tier::Case::new(case, &ray, points) else { return };
+    exact.check_triangle();
+    let (sphere, cylinder) = (a_sphere(points), a_cylinder(points));
+    if moderate(case).is_some() && sphere.radius > 0.05 {
+        exact.check_sphere(&sphere);
+    }
+    if moderate(case).is_some() && cylinder.radius > 0.05 && (cylinder.to - cylinder.from).length() > 0.05 {
+        exact.check_cylinder(&cylinder);
+    }
+}
+
 fuzz_target!(|input: Input| {
     let cases = input.cases.map(|case| case.map(Number::value));
     lanes_equal_scalar::<Fast>(&cases);
     lanes_equal_scalar::<Watertight>(&cases);
     lanes_equal_scalar::<Exact>(&cases);
+    cases.iter().for_each(check_exact);
     for (ray, points) in cases.iter().filter_map(moderate) {
         check_triangle(&ray, points);
         check_sphere(&ray, &a_sphere(points));

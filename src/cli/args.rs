@@ -7,8 +7,10 @@ use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
 use super::bench::BenchArgs;
 use super::compare::CompareArgs;
+use super::goal::GoalArgs;
 use super::simd;
 use super::source::SceneSource;
+use super::tradeoff::TradeoffArgs;
 use super::verify::VerifyArgs;
 use crate::intersect::TierName;
 use crate::output::Format;
@@ -46,6 +48,8 @@ pub enum Verb {
     Verify(Box<VerifyArgs>),
     /// Say how far two pictures differ
     Compare(CompareArgs),
+    /// Measure what settings cost and bring, against a converged exact picture
+    Tradeoff(TradeoffArgs),
     /// List the built-in scenes, or print one as a scene file
     Scenes(ScenesArgs),
     /// Print the JSON Schema of scene files
@@ -90,9 +94,12 @@ pub struct RenderArgs {
     /// Width and height in pixels, such as 640x480
     #[arg(long, value_name = "WxH", value_parser = parse_size)]
     pub size: Option<[u32; 2]>,
-    /// Samples a pixel
+    /// Samples a pixel; with --max-error or --time-limit the most that a pixel gets [default there: 65536]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..))]
     pub spp: Option<u32>,
+    /// When pixels have samples enough.
+    #[command(flatten)]
+    pub goal: GoalArgs,
     /// How many times a path may be reflected, refracted or scattered
     #[arg(long, value_name = "N")]
     pub max_depth: Option<u32>,
@@ -220,7 +227,12 @@ impl RenderArgs {
             ("render.build_quality", self.build_quality.and_then(BuildQuality::assignment)),
         ];
         let given = flags.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?)));
-        self.scene.assignments.iter().cloned().chain(given).collect()
+        self.goal
+            .assignment()
+            .into_iter()
+            .chain(self.scene.assignments.iter().cloned())
+            .chain(given)
+            .collect()
     }
 }
 

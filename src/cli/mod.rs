@@ -9,6 +9,7 @@ pub mod compare;
 pub mod completions;
 mod destination;
 mod error;
+mod goal;
 mod human;
 pub mod inspect;
 pub mod man;
@@ -24,6 +25,7 @@ mod simd;
 mod source;
 mod stdio;
 mod summary;
+pub mod tradeoff;
 pub mod verify;
 
 pub use args::{
@@ -33,5 +35,7 @@ pub use args::{
 pub use bench::BenchArgs;
 pub use compare::CompareArgs;
 pub use error::{CliError, Exit, exit_code};
+pub use goal::GoalArgs;
 pub use source::SceneSource;
+pub use tradeoff::TradeoffArgs;
 pub use verify::VerifyArgs;

@@ -11,7 +11,9 @@ use crate::describe::{self, DescribeError, Origin, SceneDescription};
 use crate::load::load_mesh;
 use crate::scene::Scene;
 
-pub(super) use crate::wavefront::{Progress, RenderError, RenderOptions, RenderReport, render};
+pub(super) use crate::wavefront::{
+    Goal, Progress, Reached, RenderError, RenderOptions, RenderReport, render,
+};
 
 /// Endings of meshes, which a scene is framed around.
 const MESHES: [&str; 3] = ["obj", "ply", "stl"];
@@ -30,8 +32,19 @@ pub(super) fn open(
     assignments: &[(String, String)],
     threads: usize,
 ) -> Result<Opened, CliError> {
+    open_changed(source, assignments, threads, |_| {})
+}
+
+/// [`open`], with a last change to the description.
+pub(super) fn open_changed(
+    source: &SceneSource,
+    assignments: &[(String, String)],
+    threads: usize,
+    change: impl FnOnce(&mut SceneDescription),
+) -> Result<Opened, CliError> {
     let sets: Vec<String> = assignments.iter().map(|(key, value)| format!("{key}={value}")).collect();
-    let description = describe(source, &sets)?;
+    let mut description = describe(source, &sets)?;
+    change(&mut description);
     let workers = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let workers = workers.map_err(|error| CliError::of(Exit::Failed, error))?;
     let scene = workers.install(|| Scene::compile(&description));

@@ -50,6 +50,7 @@ fn render(
         crop: args.crop,
         progress: Some(&|progress: Progress| reporter.advance(&progress)),
         cancel: Some(interrupt.flag()),
+        goal: args.goal.goal(),
     };
     interrupt.defer(true);
     reporter.begin();

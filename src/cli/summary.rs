@@ -6,7 +6,7 @@ use std::time::Duration;
 use serde_json::{Value, json};
 
 use super::human;
-use super::pipeline::RenderReport;
+use super::pipeline::{Reached, RenderReport};
 use super::simd;
 use crate::output::Written;
 
@@ -45,6 +45,13 @@ impl Summary {
             "height": self.size[1],
             "skipped_triangles": self.skipped_triangles,
             "samples": report.samples,
+            "reached": report.reached.map(|reached| json!({
+                // Infinite is null.
+                "rmse_estimate": reached.rmse_estimate,
+                "pixels_above": reached.pixels_above,
+                "samples_fewest": reached.samples[0],
+                "samples_most": reached.samples[1],
+            })),
             "nan_samples": report.nan_samples,
             "nan_values_written_as_zero": self.written.nan_values,
             "rays": {
@@ -69,6 +76,10 @@ impl Summary {
         rays.camera + rays.shadow + rays.reflected + rays.refracted + rays.diffuse
     }
 
+    fn pixels(&self) -> u64 {
+        self.size.map(u64::from).iter().product()
+    }
+
     fn rays_by_class(&self) -> String {
         let rays = &self.report.rays;
         let classes = [
@@ -89,6 +100,9 @@ impl fmt::Display for Summary {
         writeln!(f, "{}: {width}x{height}, {} samples", self.scene, human::count(report.samples))?;
         let rate = human::ray_rate(self.rays(), report.render_time);
         writeln!(f, "rays     {} = {}; {rate}", self.rays_by_class(), human::count(self.rays()))?;
+        if let Some(reached) = &report.reached {
+            writeln!(f, "reached  {}", told(reached, self.pixels()))?;
+        }
         let times = [self.load_time, self.build_time, report.render_time, self.write_time].map(human::time);
         let [load, build, render, write] = times;
         writeln!(f, "time     load {load}, build {build}, render {render}, write {write}")?;
@@ -103,6 +117,19 @@ impl fmt::Display for Summary {
         }
         write!(f, "picture  {}, {}", self.output, human::bytes(self.written.size_bytes))
     }
+}
+
+/// How near a goal the picture came.
+fn told(reached: &Reached, pixels: u64) -> String {
+    let [fewest, most] = reached.samples;
+    let samples = if fewest == most { format!("{most}") } else { format!("{fewest} to {most}") };
+    let error = match reached.rmse_estimate.is_finite() {
+        true => format!("{:.2e}", reached.rmse_estimate),
+        false => "unknown".into(),
+    };
+    let of_limit = |above| format!(", {} pixels within the limit", human::count(pixels - above));
+    let pixels = reached.pixels_above.map_or(String::new(), of_limit);
+    format!("estimated rmse {error}, {samples} samples a pixel{pixels}")
 }
 
 #[cfg(test)]
@@ -122,6 +149,7 @@ mod tests {
                 nan_samples: 0,
                 render_time: Duration::from_millis(500),
                 threads: 2,
+                reached: None,
             },
             load_time: Duration::from_micros(120),
             build_time: Duration::from_micros(340),
@@ -147,6 +175,23 @@ mod tests {
             assert!(text.contains(part), "{part} in\n{text}");
         }
         assert!(!text.contains("diffuse") && !text.ends_with('\n'));
+    }
+
+    #[test]
+    fn a_goal_says_how_near_it_was_reached() {
+        let reached =
+            |rmse_estimate, samples| Some(Reached { rmse_estimate, pixels_above: Some(7_200), samples });
+        let mut summary = summary();
+        summary.report.reached = reached(0.0123, [16, 384]);
+        let text = summary.to_string();
+        assert!(
+            text.contains("estimated rmse 1.23e-2, 16 to 384 samples a pixel, 300 k pixels within"),
+            "{text}"
+        );
+        assert_eq!(summary.to_json()["reached"]["samples_most"], 384);
+        summary.report.reached = reached(f64::INFINITY, [1, 1]);
+        assert!(summary.to_string().contains("estimated rmse unknown, 1 samples a pixel"), "{summary}");
+        assert_eq!(summary.to_json()["reached"]["rmse_estimate"], Value::Null);
     }
 
     #[test]

@@ -3,11 +3,13 @@
 mod accumulate;
 mod exact;
 mod image;
+mod spread;
 mod srgb;
 mod tone;
 
 pub use accumulate::{BlockNode, BlockTree, NotAdjacent, PixelSum, SAMPLES_PER_BLOCK};
 pub use exact::{CONTRIBUTION_LIMIT, SampleSums};
 pub use image::{Film, Plane, Rgb8};
+pub use spread::Spread;
 pub use srgb::{linear_from_srgb8, srgb8_from_linear};
 pub use tone::{Developed, Tone, ToneCurve, develop, develop_row};

@@ -4,9 +4,12 @@
 //! What a path adds to its sample is added exactly ([`crate::film::SampleSums`]), so neither the order of queues nor the way
 //! they are cut changes the picture.
 
+mod adaptive;
+mod adaptive_tile;
 mod connect;
 mod emit;
 mod extend;
+mod fixed;
 mod generate;
 mod medium;
 mod offset;
@@ -14,11 +17,14 @@ mod queue;
 mod render;
 mod run;
 mod scatter;
+mod shared;
 mod surface;
 mod surface_queue;
 mod tile;
 mod wave;
+mod wave_runner;
 
+pub use adaptive::{Goal, Reached};
 pub(crate) use offset::offset_along;
 pub use render::{Progress, RenderError, RenderOptions, RenderReport, render};
 pub(crate) use surface::{HitLanes, evaluate};

@@ -1,25 +1,20 @@
 //! The door: a scene in, a film out.
 
-use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use bumpalo::Bump;
 use rayon::prelude::*;
 
-use super::run::{CHUNK, run_wave};
-use super::tile::{Rect, Sums, mean, pixels, tiles};
-use super::wave::{Frame, RayCounts, WaveSamples, Worker};
-use crate::accel::stream::RayStream;
-use crate::film::{Film, PixelSum, SampleSums};
+use super::adaptive::{self, Goal, Reached};
+use super::fixed::TileWorker;
+use super::shared::Shared;
+use super::tile::{Rect, tiles};
+use super::wave::{Frame, RayCounts};
+use crate::film::Film;
 use crate::intersect::{Exact, Fast, Tier, TierName, Watertight};
-use crate::math::Real;
 use crate::scene::Scene;
 
-/// Bytes that a full queue with all its columns hardly exceeds; those that stay untouched cost nothing.
-const ARENA: usize = 1 << 20;
-
-/// How a scene is rendered; nothing here changes the bytes of the pixels it renders.
+/// How a scene is rendered; nothing here but `goal` changes the bytes of the pixels it renders.
 #[derive(Clone, Copy, Default)]
 pub struct RenderOptions<'a> {
     /// Worker threads; 0 takes as many as this process may use.
@@ -30,12 +25,14 @@ pub struct RenderOptions<'a> {
     pub progress: Option<&'a (dyn Fn(Progress) + Sync)>,
     /// Rendering stops soon after this turns true.
     pub cancel: Option<&'a AtomicBool>,
+    /// When pixels have samples enough; without it each gets all that the scene asks for.
+    pub goal: Option<Goal>,
 }
 
 /// How far a render is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Progress {
-    /// Pixels finished.
+    /// Pixels finished; under a time limit, such a share of them as of the time.
     pub pixels_done: u64,
     /// Pixels in all.
     pub pixels_total: u64,
@@ -44,7 +41,7 @@ pub struct Progress {
 }
 
 /// What a render did.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct RenderReport {
     /// Rays by their reason.
     pub rays: RayCounts,
@@ -56,6 +53,8 @@ pub struct RenderReport {
     pub render_time: Duration,
     /// Worker threads.
     pub threads: usize,
+    /// How near the goal the picture came, where there was one.
+    pub reached: Option<Reached>,
 }
 
 /// Why there is no film.
@@ -80,7 +79,8 @@ pub enum RenderError {
 
 /// Renders a scene, or the part of it that `options.crop` names.
 ///
-/// The film has the size of that part. Its bytes depend on the scene alone: not on threads, nor on the crop.
+/// The film has the size of that part. Its bytes depend on the scene alone: not on threads, nor on the crop. With a goal of
+/// `max_error` they depend on that too, and with one of `time_limit` on the machine.
 ///
 /// **Errors:** [`RenderError`].
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<(Film, RenderReport), RenderError> {
@@ -97,18 +97,22 @@ fn render_tier<T: Tier>(scene: &Scene, options: &RenderOptions) -> Result<(Film,
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
     let frame = Frame::new(scene);
     let shared = Shared::new(part, options);
-    pool.install(|| {
-        tiles(part)
-            .into_par_iter()
-            .for_each_init(|| TileWorker::<T>::new(&frame), |worker, tile| shared.render(worker, tile))
+    let reached = pool.install(|| match options.goal {
+        Some(goal) => Some(adaptive::render::<T>(&frame, &shared, goal, start)),
+        None => {
+            tiles(part)
+                .into_par_iter()
+                .for_each_init(|| TileWorker::<T>::new(&frame), |worker, tile| worker.render(tile, &shared));
+            None
+        }
     });
-    if options.cancel.is_some_and(|c| c.load(Ordering::Relaxed)) {
+    if shared.is_cancelled() {
         return Err(RenderError::Cancelled);
     }
-    let (film, rays, nan_samples) = shared.finish();
-    let samples = film.pixels.len() as u64 * u64::from(scene.settings.spp);
     let threads = pool.current_num_threads();
-    Ok((film, RenderReport { rays, samples, nan_samples, render_time: start.elapsed(), threads }))
+    let (film, rays, nan_samples) = shared.finish();
+    let samples = rays.camera;
+    Ok((film, RenderReport { rays, samples, nan_samples, render_time: start.elapsed(), threads, reached }))
 }
 
 fn part(scene: &Scene, crop: Option<[u32; 4]>) -> Result<Rect, RenderError> {
@@ -119,128 +123,4 @@ fn part(scene: &Scene, crop: Option<[u32; 4]>) -> Result<Rect, RenderError> {
     };
     let inside = fits(crop[0], crop[2], width) && fits(crop[1], crop[3], height);
     if inside { Ok(crop) } else { Err(RenderError::Crop { crop, size }) }
-}
-
-/// What the workers of a render share.
-struct Shared<'a> {
-    part: Rect,
-    options: &'a RenderOptions<'a>,
-    film: Mutex<(Film, RayCounts)>,
-    pixels_done: AtomicU64,
-    nan_samples: AtomicU64,
-}
-
-impl<'a> Shared<'a> {
-    fn new(part: Rect, options: &'a RenderOptions<'a>) -> Self {
-        Self {
-            part,
-            options,
-            film: Mutex::new((Film::new(part[2], part[3]), RayCounts::default())),
-            pixels_done: AtomicU64::new(0),
-            nan_samples: AtomicU64::new(0),
-        }
-    }
-
-    fn is_cancelled(&self) -> bool {
-        self.options.cancel.is_some_and(|c| c.load(Ordering::Relaxed))
-    }
-
-    fn render<T: Tier>(&self, tile_worker: &mut TileWorker<T>, tile: Rect) {
-        if !tile_worker.render(tile, || self.is_cancelled()) {
-            return;
-        }
-        let rays = std::mem::take(&mut tile_worker.worker.rays);
-        self.nan_samples.fetch_add(tile_worker.take_nans(), Ordering::Relaxed);
-        let total = self.store(tile_worker, rays);
-        let done = tile_worker.pixels.len() as u64;
-        let pixels_done = self.pixels_done.fetch_add(done, Ordering::Relaxed) + done;
-        if let Some(progress) = self.options.progress {
-            let pixels_total = u64::from(self.part[2]) * u64::from(self.part[3]);
-            progress(Progress { pixels_done, pixels_total, rays: total });
-        }
-    }
-
-    /// Writes a finished tile; gives the rays so far.
-    fn store<T: Tier>(&self, tile: &mut TileWorker<T>, rays: RayCounts) -> u64 {
-        let mut shared = self.film.lock().expect("no worker panics while it writes");
-        let (film, counts) = &mut *shared;
-        for (&[x, y], sum) in tile.pixels.iter().zip(&mut tile.sums) {
-            let at = (y - self.part[1]) as usize * self.part[2] as usize + (x - self.part[0]) as usize;
-            film.pixels[at] = mean(sum.total());
-        }
-        *counts = counts.plus(&rays);
-        counts.total()
-    }
-
-    fn finish(self) -> (Film, RayCounts, u64) {
-        let (film, rays) = self.film.into_inner().expect("no worker panics while it writes");
-        (film, rays, self.nan_samples.into_inner())
-    }
-}
-
-/// One thread's scratch.
-struct TileWorker<'a, T: Tier> {
-    worker: Worker<'a, T>,
-    arenas: Vec<Bump>,
-    pixels: Vec<[u32; 2]>,
-    sums: Sums,
-    weights: Vec<f32>,
-    nan_samples: u64,
-}
-
-impl<'a, T: Tier> TileWorker<'a, T> {
-    fn new(frame: &'a Frame<'a>) -> Self {
-        let scene = frame.scene;
-        // One for the camera rays, one for each depth.
-        let depths =
-            if scene.requirements.children() == 0 { 1 } else { scene.settings.max_depth as usize + 1 };
-        Self {
-            worker: Worker {
-                frame,
-                stream: RayStream::new(&scene.accel),
-                radiance: SampleSums::default(),
-                rays: RayCounts::default(),
-            },
-            arenas: (0..=depths).map(|_| Bump::with_capacity(ARENA)).collect(),
-            pixels: Vec::new(),
-            sums: Vec::new(),
-            weights: Vec::new(),
-            nan_samples: 0,
-        }
-    }
-
-    fn take_nans(&mut self) -> u64 {
-        std::mem::take(&mut self.nan_samples)
-    }
-
-    /// Renders all samples of a tile; false if cancelled before the end.
-    fn render(&mut self, tile: Rect, cancelled: impl Fn() -> bool) -> bool {
-        pixels(tile, &mut self.pixels);
-        self.sums.resize_with(self.pixels.len(), PixelSum::default);
-        self.sums.iter_mut().for_each(|sum| sum.reset(0));
-        let spp = self.worker.frame.scene.settings.spp;
-        let per_wave = (CHUNK / self.pixels.len()).max(1) as u32;
-        for first_sample in (0..spp).step_by(per_wave as usize) {
-            if cancelled() {
-                return false;
-            }
-            self.render_samples(first_sample, per_wave.min(spp - first_sample));
-        }
-        true
-    }
-
-    fn render_samples(&mut self, first_sample: u32, samples: u32) {
-        let wave = WaveSamples { pixels: &self.pixels, first_sample, samples };
-        self.weights.clear();
-        self.weights.resize(wave.len(), 1.0);
-        let weights = &mut self.weights;
-        run_wave(&mut self.worker, wave, &mut self.arenas, |slot, w: T::Real| weights[slot] = w.to_f32());
-        self.nan_samples += self.worker.radiance.nan_count();
-        let n = self.pixels.len();
-        for slot in 0..wave.len() {
-            let weight = self.weights[slot];
-            let [r, g, b] = self.worker.radiance.rgb(slot);
-            self.sums[slot % n].push([r * weight, g * weight, b * weight, weight]);
-        }
-    }
 }

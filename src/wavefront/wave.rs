@@ -41,6 +41,12 @@ impl RayCounts {
     }
 }
 
+/// What a worker did.
+pub(super) struct WaveCounts {
+    pub(super) rays: RayCounts,
+    pub(super) nan_samples: u64,
+}
+
 /// Which samples a wave holds: slot `k * pixels.len() + p` is sample `first_sample + k` of pixel `p`.
 #[derive(Clone, Copy)]
 pub(super) struct WaveSamples<'a> {

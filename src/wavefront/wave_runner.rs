@@ -1,0 +1,69 @@
+//! One thread's scratch: waves in, weighted samples out.
+
+use bumpalo::Bump;
+
+use super::run::run_wave;
+use super::wave::{Frame, RayCounts, WaveCounts, WaveSamples, Worker};
+use crate::accel::stream::RayStream;
+use crate::film::SampleSums;
+use crate::intersect::Tier;
+use crate::math::Real;
+
+/// Bytes that a full queue with all its columns hardly exceeds; those that stay untouched cost nothing.
+const ARENA: usize = 1 << 20;
+
+/// One thread's scratch.
+pub(super) struct WaveRunner<'a, T: Tier> {
+    worker: Worker<'a, T>,
+    arenas: Vec<Bump>,
+    weights: Vec<f32>,
+    nan_samples: u64,
+}
+
+impl<'a, T: Tier> WaveRunner<'a, T> {
+    pub(super) fn new(frame: &'a Frame<'a>) -> Self {
+        let scene = frame.scene;
+        // One for the camera rays, one for each depth.
+        let depths =
+            if scene.requirements.children() == 0 { 1 } else { scene.settings.max_depth as usize + 1 };
+        Self {
+            worker: Worker {
+                frame,
+                stream: RayStream::new(&scene.accel),
+                radiance: SampleSums::default(),
+                rays: RayCounts::default(),
+            },
+            arenas: (0..=depths).map(|_| Bump::with_capacity(ARENA)).collect(),
+            weights: Vec::new(),
+            nan_samples: 0,
+        }
+    }
+
+    /// Samples a pixel that the scene asks for.
+    pub(super) fn spp(&self) -> u32 {
+        self.worker.frame.scene.settings.spp
+    }
+
+    /// Traces a wave; gives each slot and its sample (three channels times the weight, and the weight), sample by sample.
+    #[inline(always)]
+    pub(super) fn run(&mut self, wave: WaveSamples, mut take: impl FnMut(usize, [f32; 4])) {
+        self.weights.clear();
+        self.weights.resize(wave.len(), 1.0);
+        let weights = &mut self.weights;
+        run_wave(&mut self.worker, wave, &mut self.arenas, |slot, w: T::Real| weights[slot] = w.to_f32());
+        self.nan_samples += self.worker.radiance.nan_count();
+        for slot in 0..wave.len() {
+            let weight = self.weights[slot];
+            let [r, g, b] = self.worker.radiance.rgb(slot);
+            take(slot, [r * weight, g * weight, b * weight, weight]);
+        }
+    }
+
+    /// What was done since the last call.
+    pub(super) fn take_counts(&mut self) -> WaveCounts {
+        WaveCounts {
+            rays: std::mem::take(&mut self.worker.rays),
+            nan_samples: std::mem::take(&mut self.nan_samples),
+        }
+    }
+}
