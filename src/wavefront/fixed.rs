@@ -39,8 +39,13 @@ impl<'a, T: Tier> TileWorker<'a, T> {
     }
 
     fn render_samples(&mut self, first_sample: u32, samples: u32) {
-        let (sums, n) = (&mut self.sums, self.pixels.len());
+        let sums = &mut self.sums;
         let wave = WaveSamples { pixels: &self.pixels, first_sample, samples };
-        self.waves.run(wave, |slot, sample| sums[slot % n].push(sample));
+        // Slots count pixels, over and over.
+        let mut pixel = 0;
+        self.waves.run(wave, |_, sample| {
+            sums[pixel].push(sample);
+            pixel = if pixel + 1 == sums.len() { 0 } else { pixel + 1 };
+        });
     }
 }

@@ -46,10 +46,10 @@ impl<'a> Shared<'a> {
 
     /// Writes pixels, given with the sums of their samples.
     pub(super) fn store(&self, pixels: &[[u32; 2]], totals: impl Iterator<Item = [f32; 4]>) {
-        let mut shared = self.film.lock().expect("no worker panics while it writes");
+        let film = &mut self.film.lock().expect("no worker panics while it writes").0;
         for (&[x, y], total) in pixels.iter().zip(totals) {
             let at = (y - self.part[1]) as usize * self.part[2] as usize + (x - self.part[0]) as usize;
-            shared.0.pixels[at] = mean(total);
+            film.pixels[at] = mean(total);
         }
     }
 
