@@ -89,7 +89,7 @@
 //! | [`film`] | samples into pixels, in an order that no thread can change |
 //! | [`output`] | films into PNG, PPM, EXR, PFM |
 //! | [`math`] | the lanes that all of it is written over |
-//! | [`measure`] | scenes into rays a second, hard rays into errors, pictures into differences |
+//! | [`measure`] | scenes into rays a second, hard rays into errors, pictures into differences, settings into costs |
 //! | [`cli`] | arguments into all of the above |
 //!
 //! # Which tier
