@@ -3,14 +3,15 @@
 //! Plainly: the ray meets the triangle if the tetrahedra that its direction spans with the three edges have volumes of one
 //! sign, zeros counting for either; `t` is a quotient of two more volumes. Departures:
 //! - `f64` decides where the volumes are larger than a bound on their rounding error; the other lanes, few but on the edges
-//!   of meshes, are decided one by one with expansions, which do not round (Shewchuk 1997);
+//!   of meshes, are decided one by one with sums of two `f64`, and where those are in doubt too with expansions, which do
+//!   not round (Shewchuk 1997);
 //! - so are `t`, `u` and `v` where their quotients would cancel;
 //! - a hit must lie in the triangle's own box ([`OwnBox`]), as in the watertight test. No exact hit is lost by that: it
 //!   confines what is left of rounding to what every tree box holds.
 
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Expansion, Lane, Mask, Pair, Real, Vec3, WIDTH, gamma_of, three, two_sum};
+use crate::math::{Lane, Mask, Pair, Real, Vec3, WIDTH, determinant, gamma_of, three, two_sum};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
@@ -47,7 +48,7 @@ impl TriangleTest for ExactVolumes {
         if !mask.any() {
             return LaneHit::none();
         }
-        let (t, u, v) = coordinates(mask, ray, v);
+        let (t, u, v) = coordinates(mask, ray, first, v);
         // A zero of either sign becomes the positive one: equal distances have equal bits.
         LaneHit { mask, t: t.clamp(first, last) + L::zero(), u, v }
     }
@@ -113,9 +114,10 @@ fn inside_exactly<L: Lane>(lanes: u32, ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> u3
     (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0 && inside(*i)).map(|i| 1 << i).sum()
 }
 
-/// `t, u, v` of the lanes of the mask.
+/// `t, u, v` of the lanes of the mask; only `t`, if that will do to see that a hit which counts as one from `first` on is
+/// behind the ray: that of most rays that leave the triangle.
 #[inline(always)]
-fn coordinates<L: Lane>(mask: L::Mask, ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> (L, L, L) {
+fn coordinates<L: Lane>(mask: L::Mask, ray: &RayLanes<L>, first: L, v: [Vec3<L>; 3]) -> (L, L, L) {
     let corners = three(|k| v[k].widen());
     let (d, s) = (ray.direction.widen(), ray.origin.widen() - corners[0]);
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
@@ -127,7 +129,7 @@ fn coordinates<L: Lane>(mask: L::Mask, ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> (L
     let mut found = [height * scale, s.dot(p) * scale, d.dot(q) * scale].map(L::narrow);
     let bad = (mask & !L::narrow_mask(good)).bits();
     if bad != 0 {
-        coordinates_exactly(bad, ray, v, &mut found);
+        coordinates_exactly(bad, ray, first, v, &mut found);
     }
     let (zero, one) = (L::zero(), L::one());
     let u = found[1].clamp(zero, one);
@@ -136,10 +138,17 @@ fn coordinates<L: Lane>(mask: L::Mask, ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> (L
 
 /// Replaces the lanes given as bits.
 #[cold]
-fn coordinates_exactly<L: Lane>(lanes: u32, ray: &RayLanes<L>, v: [Vec3<L>; 3], found: &mut [L; 3]) {
+fn coordinates_exactly<L: Lane>(
+    lanes: u32,
+    ray: &RayLanes<L>,
+    first: L,
+    v: [Vec3<L>; 3],
+    found: &mut [L; 3],
+) {
     for i in (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0) {
         let lane = L::Mask::from_bits(1 << i);
-        let exact = Lane1::of(i, ray, v).coordinates();
+        let (first, t_min) = (first.get(i).to_f64(), ray.t_min.get(i).to_f64());
+        let exact = Lane1::of(i, ray, v).coordinates(|t| t.max(first) <= t_min);
         for (found, exact) in found.iter_mut().zip(exact) {
             *found = L::select(lane, L::constant(exact), *found);
         }
@@ -162,28 +171,31 @@ impl Lane1 {
     fn weights(&self) -> Weights {
         let [a, b, c] = self.corners.map(|corner| difference(corner, self.origin));
         let d = self.direction.map(|x| [x, 0.0]);
-        Weights([(&b, &c), (&c, &a), (&a, &b)].map(|(p, q)| Expansion::determinant(&d, p, q)))
+        Weights([(&b, &c), (&c, &a), (&a, &b)].map(|(p, q)| determinant(&d, p, q)))
     }
 
-    fn coordinates(&self) -> [f64; 3] {
+    /// `t, u, v`; only `t` where that is `enough`.
+    fn coordinates(&self, enough: impl Fn(f64) -> bool) -> [f64; 3] {
         let [v0, v1, v2] = self.corners;
         let (e1, e2) = (difference(v1, v0), difference(v2, v0));
-        let slope = Expansion::determinant(&self.direction.map(|x| [x, 0.0]), &e1, &e2).value();
-        let height = Expansion::determinant(&difference(v0, self.origin), &e1, &e2).value();
+        let slope = determinant(&self.direction.map(|x| [x, 0.0]), &e1, &e2);
+        let height = determinant(&difference(v0, self.origin), &e1, &e2);
+        if enough(height / slope) {
+            return [height / slope, 0.0, 0.0];
+        }
         let Weights([_, u, v]) = self.weights();
-        [height / slope, u.value() / slope, v.value() / slope]
+        [height / slope, u / slope, v / slope]
     }
 }
 
 /// Volumes of direction and edge, which are the weights of the opposite corners.
-struct Weights([Expansion; 3]);
+struct Weights([f64; 3]);
 
 impl Weights {
     /// All of one sign or zero, but not all zero, as they are for a triangle seen edge-on.
     fn is_inside(&self) -> bool {
-        let signs = self.0.map(|volume| volume.sign());
-        let (low, high) = (signs.into_iter().min(), signs.into_iter().max());
-        (low >= Some(0) || high <= Some(0)) && signs != [0; 3]
+        let (low, high) = self.0.iter().fold((0.0f64, 0.0f64), |(low, high), &x| (low.min(x), high.max(x)));
+        (low == 0.0) != (high == 0.0)
     }
 }
 
