@@ -10,6 +10,7 @@ use super::compare::CompareArgs;
 use super::simd;
 use super::source::SceneSource;
 use super::verify::VerifyArgs;
+use crate::film::Aov;
 use crate::intersect::TierName;
 use crate::output::Format;
 
@@ -108,6 +109,9 @@ pub struct RenderArgs {
     /// How much work goes into building the tree; the picture stays the same
     #[arg(long, value_name = "HOW")]
     pub build_quality: Option<BuildQuality>,
+    /// Values beside colour for an EXR picture, such as depth,object_id; a file with the camera's numbers is written beside it
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(Aov::NAMES))]
+    pub aovs: Vec<String>,
     /// Render only this part of the picture: left, top, width, height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_crop)]
     pub crop: Option<[u32; 4]>,
@@ -218,6 +222,7 @@ impl RenderArgs {
             ("render.seed", self.seed.map(|seed| seed.to_string())),
             ("render.tier", tier.map(|tier| format!("\"{}\"", tier.get_name()))),
             ("render.build_quality", self.build_quality.and_then(BuildQuality::assignment)),
+            ("render.aovs", (!self.aovs.is_empty()).then(|| format!("{:?}", self.aovs))),
         ];
         let given = flags.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?)));
         self.scene.assignments.iter().cloned().chain(given).collect()

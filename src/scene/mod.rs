@@ -5,6 +5,7 @@ mod compile;
 mod light;
 mod material;
 mod memory;
+mod objects;
 mod requirements;
 mod texture;
 
@@ -12,11 +13,12 @@ pub use camera::{Camera, CameraRays, Projection};
 pub use compile::{CompileError, CompileTimes};
 pub use light::Light;
 pub use material::{MaterialRow, Materials, NO_TEXTURE, Scatter};
+pub use objects::ObjectRows;
 pub use requirements::Requirements;
 pub use texture::sample_texture;
 
 use crate::accel::{Accel, Quality};
-use crate::film::Tone;
+use crate::film::{AovSet, Tone};
 use crate::geometry::Geometry;
 use crate::intersect::TierName;
 use crate::load::Texture;
@@ -71,6 +73,8 @@ pub struct RenderSettings {
     pub min_throughput: f64,
     /// Exposure and curve for the 8-bit formats.
     pub tone: Tone,
+    /// Values beside colour.
+    pub aovs: AovSet,
 }
 
 /// A scene ready to render.
@@ -94,6 +98,8 @@ pub struct Scene {
     pub settings: RenderSettings,
     /// What of the renderer this needs.
     pub requirements: Requirements,
+    /// Which object each primitive belongs to; empty unless the settings ask for it.
+    pub objects: ObjectRows,
     /// Triangles left out because they have no area.
     pub skipped_triangles: usize,
     /// How long compiling took.

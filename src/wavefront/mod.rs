@@ -4,12 +4,14 @@
 //! What a path adds to its sample is added exactly ([`crate::film::SampleSums`]), so neither the order of queues nor the way
 //! they are cut changes the picture.
 
+mod aov;
 mod connect;
 mod emit;
 mod extend;
 mod generate;
 mod medium;
 mod offset;
+mod paint;
 mod queue;
 mod render;
 mod run;

@@ -1,19 +1,13 @@
 //! The door: a scene in, a film out.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicBool, AtomicU64, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicU64, AtomicUsize, Ordering};
 use std::time::{Duration, Instant};
 
-use bumpalo::Bump;
-use rayon::prelude::*;
-
-use super::run::{CHUNK, run_wave};
-use super::tile::{Rect, Sums, mean, pixels, tiles};
-use super::wave::{Frame, RayCounts, WaveSamples, Worker};
-use crate::accel::stream::RayStream;
-use crate::film::{Film, PixelSum, SampleSums};
-use crate::intersect::{Exact, Fast, Tier, TierName, Watertight};
-use crate::math::Real;
+use super::paint::{Painted, Tiles, paint};
+use super::tile::{Rect, mean, tiles};
+use super::wave::RayCounts;
+use crate::film::{AovSet, Film};
 use crate::scene::Scene;
 
 /// How a scene is rendered; nothing here changes the bytes of the pixels it renders.
@@ -77,28 +71,16 @@ pub enum RenderError {
 
 /// Renders a scene, or the part of it that `options.crop` names.
 ///
-/// The film has the size of that part. Its bytes depend on the scene alone: not on threads, nor on the crop.
+/// The film has the size of that part, and the planes that the scene's settings ask for. Its bytes depend on the scene
+/// alone: not on threads, nor on the crop.
 ///
 /// **Errors:** [`RenderError`].
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<(Film, RenderReport), RenderError> {
-    match scene.settings.tier {
-        TierName::Fast => render_tier::<Fast>(scene, options),
-        TierName::Watertight => render_tier::<Watertight>(scene, options),
-        TierName::Exact => render_tier::<Exact>(scene, options),
-    }
-}
-
-fn render_tier<T: Tier>(scene: &Scene, options: &RenderOptions) -> Result<(Film, RenderReport), RenderError> {
     let start = Instant::now();
     let part = part(scene, options.crop)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
-    let frame = Frame::new(scene);
-    let shared = Shared::new(part, options);
-    pool.install(|| {
-        tiles(part)
-            .into_par_iter()
-            .for_each_init(|| TileWorker::<T>::new(&frame), |worker, tile| shared.render(worker, tile))
-    });
+    let shared = Shared::new(scene, part, options);
+    pool.broadcast(|_| paint(scene, 0..scene.settings.spp, &shared));
     if options.cancel.is_some_and(|c| c.load(Ordering::Relaxed)) {
         return Err(RenderError::Cancelled);
     }
@@ -118,126 +100,73 @@ fn part(scene: &Scene, crop: Option<[u32; 4]>) -> Result<Rect, RenderError> {
     if inside { Ok(crop) } else { Err(RenderError::Crop { crop, size }) }
 }
 
-/// What the workers of a render share.
+/// What the threads of a render share.
 struct Shared<'a> {
     part: Rect,
+    aovs: AovSet,
     options: &'a RenderOptions<'a>,
+    tiles: Vec<Rect>,
+    tiles_taken: AtomicUsize,
     film: Mutex<(Film, RayCounts)>,
     pixels_done: AtomicU64,
     nan_samples: AtomicU64,
 }
 
 impl<'a> Shared<'a> {
-    fn new(part: Rect, options: &'a RenderOptions<'a>) -> Self {
+    fn new(scene: &Scene, part: Rect, options: &'a RenderOptions<'a>) -> Self {
+        let mut film = Film::new(part[2], part[3]);
+        film.planes = scene.settings.aovs.planes(film.pixels.len());
+        film.count_samples(scene.settings.spp);
         Self {
             part,
+            aovs: scene.settings.aovs,
             options,
-            film: Mutex::new((Film::new(part[2], part[3]), RayCounts::default())),
+            tiles: tiles(part),
+            tiles_taken: AtomicUsize::new(0),
+            film: Mutex::new((film, RayCounts::default())),
             pixels_done: AtomicU64::new(0),
             nan_samples: AtomicU64::new(0),
         }
     }
 
-    fn is_cancelled(&self) -> bool {
-        self.options.cancel.is_some_and(|c| c.load(Ordering::Relaxed))
-    }
-
-    fn render<T: Tier>(&self, tile_worker: &mut TileWorker<T>, tile: Rect) {
-        if !tile_worker.render(tile, || self.is_cancelled()) {
-            return;
-        }
-        let rays = std::mem::take(&mut tile_worker.worker.rays);
-        self.nan_samples.fetch_add(tile_worker.take_nans(), Ordering::Relaxed);
-        let total = self.store(tile_worker, rays);
-        let done = tile_worker.pixels.len() as u64;
-        let pixels_done = self.pixels_done.fetch_add(done, Ordering::Relaxed) + done;
-        if let Some(progress) = self.options.progress {
-            let pixels_total = u64::from(self.part[2]) * u64::from(self.part[3]);
-            progress(Progress { pixels_done, pixels_total, rays: total });
-        }
-    }
-
     /// Writes a finished tile; gives the rays so far.
-    fn store<T: Tier>(&self, tile: &mut TileWorker<T>, rays: RayCounts) -> u64 {
-        let mut shared = self.film.lock().expect("no worker panics while it writes");
+    fn store(&self, painted: &mut Painted) -> u64 {
+        let mut shared = self.film.lock().expect("no thread panics while it writes");
         let (film, counts) = &mut *shared;
-        for (&[x, y], sum) in tile.pixels.iter().zip(&mut tile.sums) {
+        for (k, (&[x, y], sum)) in painted.pixels.iter().zip(painted.sums.iter_mut()).enumerate() {
             let at = (y - self.part[1]) as usize * self.part[2] as usize + (x - self.part[0]) as usize;
             film.pixels[at] = mean(sum.total());
+            if let Some(seen) = painted.seen.get(k) {
+                seen.store(self.aovs, &mut film.planes, at);
+            }
         }
-        *counts = counts.plus(&rays);
+        *counts = counts.plus(&painted.rays);
         counts.total()
     }
 
     fn finish(self) -> (Film, RayCounts, u64) {
-        let (film, rays) = self.film.into_inner().expect("no worker panics while it writes");
+        let (film, rays) = self.film.into_inner().expect("no thread panics while it writes");
         (film, rays, self.nan_samples.into_inner())
     }
 }
 
-/// One thread's scratch.
-struct TileWorker<'a, T: Tier> {
-    worker: Worker<'a, T>,
-    arenas: Vec<Bump>,
-    pixels: Vec<[u32; 2]>,
-    sums: Sums,
-    weights: Vec<f32>,
-    nan_samples: u64,
-}
-
-impl<'a, T: Tier> TileWorker<'a, T> {
-    fn new(frame: &'a Frame<'a>) -> Self {
-        let scene = frame.scene;
-        // One for the camera rays, one for each depth.
-        let depths =
-            if scene.requirements.children() == 0 { 1 } else { scene.settings.max_depth as usize + 1 };
-        Self {
-            worker: Worker {
-                frame,
-                stream: RayStream::new(&scene.accel),
-                radiance: SampleSums::default(),
-                rays: RayCounts::default(),
-            },
-            arenas: (0..=depths).map(|_| Bump::new()).collect(),
-            pixels: Vec::new(),
-            sums: Vec::new(),
-            weights: Vec::new(),
-            nan_samples: 0,
-        }
+impl Tiles for Shared<'_> {
+    fn next(&self) -> Option<Rect> {
+        self.tiles.get(self.tiles_taken.fetch_add(1, Ordering::Relaxed)).copied()
     }
 
-    fn take_nans(&mut self) -> u64 {
-        std::mem::take(&mut self.nan_samples)
+    fn cancelled(&self) -> bool {
+        self.options.cancel.is_some_and(|c| c.load(Ordering::Relaxed))
     }
 
-    /// Renders all samples of a tile; false if cancelled before the end.
-    fn render(&mut self, tile: Rect, cancelled: impl Fn() -> bool) -> bool {
-        pixels(tile, &mut self.pixels);
-        self.sums.resize_with(self.pixels.len(), PixelSum::default);
-        self.sums.iter_mut().for_each(|sum| sum.reset(0));
-        let spp = self.worker.frame.scene.settings.spp;
-        let per_wave = (CHUNK / self.pixels.len()).max(1) as u32;
-        for first_sample in (0..spp).step_by(per_wave as usize) {
-            if cancelled() {
-                return false;
-            }
-            self.render_samples(first_sample, per_wave.min(spp - first_sample));
-        }
-        true
-    }
-
-    fn render_samples(&mut self, first_sample: u32, samples: u32) {
-        let wave = WaveSamples { pixels: &self.pixels, first_sample, samples };
-        self.weights.clear();
-        self.weights.resize(wave.len(), 1.0);
-        let weights = &mut self.weights;
-        run_wave(&mut self.worker, wave, &mut self.arenas, |slot, w: T::Real| weights[slot] = w.to_f32());
-        self.nan_samples += self.worker.radiance.nan_count();
-        let n = self.pixels.len();
-        for slot in 0..wave.len() {
-            let weight = self.weights[slot];
-            let [r, g, b] = self.worker.radiance.rgb(slot);
-            self.sums[slot % n].push([r * weight, g * weight, b * weight, weight]);
+    fn done(&self, mut painted: Painted<'_>) {
+        self.nan_samples.fetch_add(painted.nan_samples, Ordering::Relaxed);
+        let rays = self.store(&mut painted);
+        let done = painted.pixels.len() as u64;
+        let pixels_done = self.pixels_done.fetch_add(done, Ordering::Relaxed) + done;
+        if let Some(progress) = self.options.progress {
+            let pixels_total = u64::from(self.part[2]) * u64::from(self.part[3]);
+            progress(Progress { pixels_done, pixels_total, rays });
         }
     }
 }

@@ -97,10 +97,7 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         lanes: u32,
     ) {
         let at = self.len;
-        let inside = hit.direction.dot(surface.geometric_normal).gt(L::zero());
-        let facing = |n: Vec3<L>| Vec3::select(inside, -n, n);
-        let geometric_normal = facing(surface.geometric_normal);
-        let shading_normal = towards(facing(surface.shading_normal), geometric_normal, hit.direction);
+        let (inside, [geometric_normal, shading_normal]) = facing(hit, &surface);
         self.point.compress(at, surface.point, lanes);
         compress(self.error, at, surface.error, lanes);
         self.geometric_normal.compress(at, geometric_normal, lanes);
@@ -114,7 +111,6 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         compress_words(self.slot, at, &paths.map(|path| queue.slot[path]), lanes);
         compress_words(self.material, at, materials, lanes);
         compress_words(self.path, at, &paths.number, lanes);
-        let inside = inside.bits();
         compress_words(self.from_inside, at, &eight(|i| inside >> i & 1), lanes);
         if scene.requirements.children() > 0 {
             self.sort_by_scatter(scene, materials, lanes);
@@ -164,8 +160,18 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
     }
 }
 
+/// The lanes whose rays come from inside, against the outward normal, and both normals on the side that rays come from.
 #[inline(always)]
-fn gather_hits<L: Lane>(
+pub(super) fn facing<L: Lane>(hit: &HitLanes<L>, surface: &SurfaceLanes<L>) -> (u32, [Vec3<L>; 2]) {
+    let inside = hit.direction.dot(surface.geometric_normal).gt(L::zero());
+    let turned = |n: Vec3<L>| Vec3::select(inside, -n, n);
+    let geometric_normal = turned(surface.geometric_normal);
+    let shading_normal = towards(turned(surface.shading_normal), geometric_normal, hit.direction);
+    (inside.bits(), [geometric_normal, shading_normal])
+}
+
+#[inline(always)]
+pub(super) fn gather_hits<L: Lane>(
     queue: &PathQueue<L::Scalar>,
     paths: &Rows,
     hits: &Hits<L::Scalar>,
@@ -182,7 +188,7 @@ fn gather_hits<L: Lane>(
     }
 }
 
-fn material_of(scene: &Scene, kind: crate::intersect::PrimKind, row: u32, instance: u32) -> u32 {
+pub(super) fn material_of(scene: &Scene, kind: crate::intersect::PrimKind, row: u32, instance: u32) -> u32 {
     let override_of = |n: u32| scene.geometry.instances[n as usize - 1].material;
     match instance {
         n if n != 0 && override_of(n) != NO_MATERIAL => override_of(n),
@@ -198,7 +204,7 @@ fn towards<L: Lane>(shading: Vec3<L>, geometric: Vec3<L>, direction: Vec3<L>) ->
 }
 
 /// Texture colours; white where a material has no texture.
-fn texture_color<L: Lane>(scene: &Scene, materials: &[u32; WIDTH], (u, v): (L, L)) -> Vec3<L> {
+pub(super) fn texture_color<L: Lane>(scene: &Scene, materials: &[u32; WIDTH], (u, v): (L, L)) -> Vec3<L> {
     let of = |i: usize| match scene.materials.texture[materials[i] as usize] {
         NO_TEXTURE => [1.0; 3],
         row => sample_texture(&scene.textures[row as usize], [u.get(i).to_f32(), v.get(i).to_f32()]),

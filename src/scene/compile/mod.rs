@@ -8,13 +8,14 @@ mod world;
 
 use std::time::{Duration, Instant};
 
-use super::{Background, RenderSettings, Requirements, Scene};
+use super::{Background, ObjectRows, RenderSettings, Requirements, Scene};
 use crate::accel::Accel;
 use crate::describe::{Fault, SceneDescription};
+use crate::film::Aov;
 use crate::load::LoadError;
 use crate::math::TransformError;
 use materials::MaterialTable;
-use world::World;
+use world::{Filled, World};
 
 /// Why a description cannot become a scene.
 #[derive(Debug, thiserror::Error)]
@@ -71,8 +72,10 @@ impl Scene {
         let start = Instant::now();
         description.check().map_err(CompileError::Description)?;
         let mut table = MaterialTable::new(description);
-        let (geometry, skipped_triangles) = World::compile(description, &mut table)?;
         let settings = RenderSettings::of(description);
+        let objects = ObjectRows::wanted(settings.aovs.has(Aov::ObjectId));
+        let Filled { geometry, objects, skipped_triangles } =
+            World::compile(description, &mut table, objects)?;
         let camera = view::camera(description)?;
         let lights = view::lights(description);
         let (materials, textures) = table.finish();
@@ -93,6 +96,7 @@ impl Scene {
             background,
             settings,
             requirements,
+            objects,
             skipped_triangles,
             times,
         })
