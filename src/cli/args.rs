@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
+use super::batch::{BatchArgs, MergeArgs, PlanArgs, RunArgs, StatusArgs};
 use super::bench::BenchArgs;
 use super::compare::CompareArgs;
 use super::simd;
@@ -19,9 +20,10 @@ Exit codes:
   0  done
   1  failed while running (files, memory, interrupted)
   2  wrong use
-  3  bad scene or asset
+  3  bad scene or asset, damaged or changed files, incomplete work (octray merge)
   4  beyond a limit: slower than the baseline (octray bench), a documented bound broken (octray verify),
      pictures that differ by too much (octray compare)
+  75 stopped by a signal; the same command goes on from there (octray run, octray batch)
 
 Data goes to standard output, everything else to standard error. NO_COLOR is honoured.";
 
@@ -39,6 +41,16 @@ pub struct Args {
 pub enum Verb {
     /// Render a scene to a picture
     Render(Box<RenderArgs>),
+    /// Render all pictures of a job file here, or those that are not done yet
+    Batch(Box<BatchArgs>),
+    /// Cut the pictures of a job file into units and shards, for `octray run`
+    Plan(Box<PlanArgs>),
+    /// Render the units of a plan, or those of one shard, that are not done yet
+    Run(Box<RunArgs>),
+    /// Check that all units of a plan are there, and put pictures together
+    Merge(MergeArgs),
+    /// Say how much of a plan is done
+    Status(StatusArgs),
     /// Show what a scene holds and which stages it needs
     Inspect(InspectArgs),
     /// Measure rays a second

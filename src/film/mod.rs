@@ -4,6 +4,7 @@ mod accumulate;
 mod aov;
 mod exact;
 mod image;
+mod partial;
 mod srgb;
 mod tone;
 
@@ -11,5 +12,6 @@ pub use accumulate::{BlockNode, BlockTree, NotAdjacent, PixelSum, SAMPLES_PER_BL
 pub use aov::{Aov, AovSample, AovSet};
 pub use exact::{CONTRIBUTION_LIMIT, SampleSums};
 pub use image::{Film, Plane, PlaneValues, Rgb8};
+pub use partial::{TileSums, joined, node_places};
 pub use srgb::{linear_from_srgb8, srgb8_from_linear};
 pub use tone::{Developed, Tone, ToneCurve, develop, develop_row};

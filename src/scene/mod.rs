@@ -17,6 +17,8 @@ pub use objects::ObjectRows;
 pub use requirements::Requirements;
 pub use texture::sample_texture;
 
+use std::sync::Arc;
+
 use crate::accel::{Accel, Quality};
 use crate::film::{AovSet, Tone};
 use crate::geometry::Geometry;
@@ -77,17 +79,17 @@ pub struct RenderSettings {
     pub aovs: AovSet,
 }
 
-/// A scene ready to render.
+/// A scene ready to render. What is costly to make is shared with the same scene [seen otherwise](Scene::seen_by).
 #[derive(Debug)]
 pub struct Scene {
     /// Primitives.
-    pub geometry: Geometry,
+    pub geometry: Arc<Geometry>,
     /// Trees over them.
-    pub accel: Accel,
+    pub accel: Arc<Accel>,
     /// Materials.
-    pub materials: Materials,
+    pub materials: Arc<Materials>,
     /// Textures.
-    pub textures: Vec<Texture>,
+    pub textures: Arc<Vec<Texture>>,
     /// Lights.
     pub lights: Vec<Light>,
     /// The camera.
@@ -99,7 +101,7 @@ pub struct Scene {
     /// What of the renderer this needs.
     pub requirements: Requirements,
     /// Which object each primitive belongs to; empty unless the settings ask for it.
-    pub objects: ObjectRows,
+    pub objects: Arc<ObjectRows>,
     /// Triangles left out because they have no area.
     pub skipped_triangles: usize,
     /// How long compiling took.

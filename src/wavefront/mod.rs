@@ -22,6 +22,8 @@ mod tile;
 mod wave;
 
 pub(crate) use offset::offset_along;
+pub(crate) use paint::{Painted, Tiles, paint};
 pub use render::{Progress, RenderError, RenderOptions, RenderReport, render};
 pub(crate) use surface::{HitLanes, evaluate};
+pub(crate) use tile::{Rect, mean, pixels, tiles};
 pub use wave::RayCounts;

@@ -6,13 +6,15 @@ mod rows;
 mod view;
 mod world;
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::{Background, ObjectRows, RenderSettings, Requirements, Scene};
+use super::{Background, Materials, ObjectRows, RenderSettings, Requirements, Scene};
 use crate::accel::Accel;
 use crate::describe::{Fault, SceneDescription};
 use crate::film::Aov;
-use crate::load::LoadError;
+use crate::geometry::Geometry;
+use crate::load::{LoadError, Texture};
 use crate::math::TransformError;
 use materials::MaterialTable;
 use world::{Filled, World};
@@ -76,17 +78,59 @@ impl Scene {
         let objects = ObjectRows::wanted(settings.aovs.has(Aov::ObjectId));
         let Filled { geometry, objects, skipped_triangles } =
             World::compile(description, &mut table, objects)?;
-        let camera = view::camera(description)?;
-        let lights = view::lights(description);
         let (materials, textures) = table.finish();
-        let weights = settings.filter.has_negative_lobes();
-        let requirements =
-            Requirements::of(&geometry, &materials, &lights, &camera, settings.max_depth, weights);
         let load = start.elapsed();
         let accel = Accel::build_with(&geometry, settings.build_quality);
         let times = CompileTimes { load, build: start.elapsed() - load };
+        let columns = Columns {
+            geometry: Arc::new(geometry),
+            accel: Arc::new(accel),
+            materials: Arc::new(materials),
+            textures: Arc::new(textures),
+            objects: Arc::new(objects),
+            skipped_triangles,
+        };
+        Ok(Self { times, ..columns.seen_by(description)? })
+    }
+
+    /// The same objects by the camera, lights and settings of another description, which must be checked and describe the
+    /// same objects, materials and background. Nothing is loaded or built.
+    ///
+    /// **Errors:** [`CompileError`], for a camera that cannot be.
+    pub fn seen_by(&self, description: &SceneDescription) -> Result<Self, CompileError> {
+        let columns = Columns {
+            geometry: Arc::clone(&self.geometry),
+            accel: Arc::clone(&self.accel),
+            materials: Arc::clone(&self.materials),
+            textures: Arc::clone(&self.textures),
+            objects: Arc::clone(&self.objects),
+            skipped_triangles: self.skipped_triangles,
+        };
+        columns.seen_by(description)
+    }
+}
+
+/// What of a scene does not depend on who looks at it.
+struct Columns {
+    geometry: Arc<Geometry>,
+    accel: Arc<Accel>,
+    materials: Arc<Materials>,
+    textures: Arc<Vec<Texture>>,
+    objects: Arc<ObjectRows>,
+    skipped_triangles: usize,
+}
+
+impl Columns {
+    fn seen_by(self, description: &SceneDescription) -> Result<Scene, CompileError> {
+        let Self { geometry, accel, materials, textures, objects, skipped_triangles } = self;
+        let settings = RenderSettings::of(description);
+        let camera = view::camera(description)?;
+        let lights = view::lights(description);
+        let weights = settings.filter.has_negative_lobes();
+        let requirements =
+            Requirements::of(&geometry, &materials, &lights, &camera, settings.max_depth, weights);
         let background = Background::of(description);
-        Ok(Self {
+        Ok(Scene {
             geometry,
             accel,
             materials,
@@ -98,7 +142,7 @@ impl Scene {
             requirements,
             objects,
             skipped_triangles,
-            times,
+            times: CompileTimes::default(),
         })
     }
 }
