@@ -5,7 +5,9 @@ use std::collections::HashMap;
 use super::BatchError;
 use super::part::Part;
 use super::picture::{Picture, PictureFile};
-use crate::film::{AovSample, AovSet, BlockNode, Film, Plane, PlaneValues, TileSums, joined, node_places};
+use crate::film::{
+    AovSample, AovSet, BlockNode, Film, Plane, PlaneValues, TileSums, joined, node_places, total,
+};
 use crate::output::{Format, OutputError, camera_json, camera_path, encode};
 use crate::scene::Scene;
 use crate::wavefront::{Rect, mean, pixels};
@@ -47,12 +49,7 @@ fn store(film: &mut Film, pixels: &[[u32; 2]], layers: &[Layer]) {
     let samples = layers.iter().map(|layer| layer.samples).sum();
     for (k, &[x, y]) in pixels.iter().enumerate() {
         let at = y as usize * film.width as usize + x as usize;
-        let nodes = layers.iter().flat_map(|layer| {
-            let sum = |node: usize| layer.sums.nodes[node * pixels.len() + k];
-            let places = layer.places.iter().enumerate();
-            places.map(move |(node, &(level, index))| BlockNode { level, index, sum: sum(node) })
-        });
-        film.pixels[at] = mean(joined(nodes));
+        film.pixels[at] = mean(sum(layers, (k, pixels.len())));
         for layer in layers.iter().filter(|layer| !layer.sums.aovs.is_empty()) {
             store_aovs(&mut film.planes, &layer.sums.aovs, (k, pixels.len()), at);
         }
@@ -60,6 +57,18 @@ fn store(film: &mut Film, pixels: &[[u32; 2]], layers: &[Layer]) {
             counts[at] = samples;
         }
     }
+}
+
+/// The sum of one pixel of a tile.
+fn sum(layers: &[Layer], (pixel, pixels): (usize, usize)) -> [f32; 4] {
+    let node = |layer: &Layer, node: usize| layer.sums.nodes[node * pixels + pixel];
+    if let [whole] = layers {
+        return total((0..whole.places.len()).map(|n| node(whole, n)));
+    }
+    joined(layers.iter().flat_map(|layer| {
+        let places = layer.places.iter().enumerate();
+        places.map(move |(n, &(level, index))| BlockNode { level, index, sum: node(layer, n) })
+    }))
 }
 
 fn sample_counts(planes: &mut [Plane]) -> Option<&mut PlaneValues> {

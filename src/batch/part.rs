@@ -49,6 +49,12 @@ impl Part {
         }
     }
 
+    /// The same unit with nothing done and no tiles to do.
+    pub(super) fn emptied(&self) -> Self {
+        let unit = self.unit.clone();
+        Self { unit, tiles: Vec::new(), sums: Vec::new(), nodes: self.nodes, channels: self.channels }
+    }
+
     /// Numbers of the tiles that are not done.
     pub(super) fn missing(&self) -> Vec<usize> {
         (0..self.sums.len()).filter(|&tile| self.sums[tile].is_none()).collect()

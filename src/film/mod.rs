@@ -8,7 +8,7 @@ mod partial;
 mod srgb;
 mod tone;
 
-pub use accumulate::{BlockNode, BlockTree, NotAdjacent, PixelSum, SAMPLES_PER_BLOCK};
+pub use accumulate::{BlockNode, BlockTree, NotAdjacent, PixelSum, SAMPLES_PER_BLOCK, total};
 pub use aov::{Aov, AovSample, AovSet};
 pub use exact::{CONTRIBUTION_LIMIT, SampleSums};
 pub use image::{Film, Plane, PlaneValues, Rgb8};

@@ -76,9 +76,11 @@ impl Active {
             && (done > 0 || self.tiles.is_empty())
     }
 
-    /// Its sums.
-    pub(super) fn part(&self) -> Part {
-        self.sums.lock().expect("no thread panics while it stores a tile").part.clone()
+    /// Its sums, which it then has no more.
+    pub(super) fn take(&self) -> Part {
+        let mut sums = self.sums.lock().expect("no thread panics while it stores a tile");
+        let emptied = sums.part.emptied();
+        std::mem::replace(&mut sums.part, emptied)
     }
 
     /// Keeps what is done.

@@ -18,7 +18,7 @@ pub(super) struct Finished {
 
 /// The files of a unit: those of its picture, or its sums if it is a part of one.
 pub(super) fn encoded(work: &Work, active: &Active) -> Result<Finished, BatchError> {
-    let part = active.part();
+    let part = active.take();
     let (unit, picture) = (part.unit.number, &work.plan.pictures[part.unit.picture]);
     let files = match work.plan.split {
         Split::Frames => {
