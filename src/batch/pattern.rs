@@ -25,13 +25,18 @@ pub(super) fn path(pattern: &str, names: &Names) -> Result<String, String> {
         _ => pattern.to_owned(),
     };
     let path = braces(&hashes(&pattern, names.frame.unwrap_or(0)), names)?;
-    let plain = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
-    if path.is_empty() || !Path::new(&path).components().all(plain) {
+    if !is_below(&path) {
         return Err(format!(
             "output `{path}` must lie below the output folder: neither absolute nor with `..`"
         ));
     }
     Ok(path)
+}
+
+/// Whether a path stays in the folder that it starts from.
+pub(super) fn is_below(path: &str) -> bool {
+    let plain = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
+    !path.is_empty() && Path::new(path).components().all(plain)
 }
 
 fn with_frame(pattern: &str) -> String {

@@ -2,6 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
+use super::pattern::is_below;
 use crate::film::Aov;
 
 /// One picture: a scene with changes, and the files it becomes.
@@ -37,6 +38,11 @@ pub struct PictureFile {
 }
 
 impl Picture {
+    /// Whether all its files lie below the output folder.
+    pub(super) fn has_good_paths(&self) -> bool {
+        self.outputs.iter().all(|file| is_below(&file.path))
+    }
+
     /// Camera samples in all.
     pub fn samples(&self) -> u64 {
         u64::from(self.size[0]) * u64::from(self.size[1]) * u64::from(self.spp)

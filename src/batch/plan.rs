@@ -17,6 +17,12 @@ use crate::output::write_atomically;
 /// The first words of a plan, with the version of its format.
 const FORMAT: &str = "octray plan 1";
 
+/// More pixels than a scene may have.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// Most shards of a plan.
+pub const MOST_SHARDS: u32 = 1_000_000;
+
 /// What a unit is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
@@ -125,9 +131,14 @@ impl Plan {
                 "was made by octray {made} and this is {here}: pictures may differ, make the plan anew"
             ));
         }
+        if !(1..=MOST_SHARDS).contains(&self.shards) {
+            return Err(format!("is damaged: {} shards", self.shards));
+        }
         let mut units = 0;
         for picture in &self.pictures {
-            if picture.size.contains(&0) || picture.spp == 0 || picture.first_unit != units {
+            let pixels = u64::from(picture.size[0]) * u64::from(picture.size[1]);
+            let is_picture = (1..=MOST_PIXELS).contains(&pixels) && picture.spp > 0;
+            if !is_picture || picture.first_unit != units || !picture.has_good_paths() {
                 return Err(format!("is damaged: {} does not fit the others", picture.name));
             }
             if picture.units != Cut::of(self.split, self.shards, picture).units() {
@@ -135,7 +146,7 @@ impl Plan {
             }
             units += picture.units;
         }
-        if self.shards == 0 || units != self.cost.units {
+        if units != self.cost.units {
             return Err("is damaged: its units do not add up".into());
         }
         Ok(())

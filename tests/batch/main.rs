@@ -7,6 +7,7 @@ mod progress;
 mod readme;
 mod refusal;
 mod shards;
+mod sharing;
 
 use std::collections::BTreeMap;
 use std::path::Path;

@@ -73,6 +73,8 @@ fn damaged_and_foreign_plans_are_refused() {
         (plan.replacen("\"units\": 1", "\"units\": 2", 1), "damaged"),
         (plan.replace("\"shards\": 1", "\"shards\": 0"), "damaged"),
         (plan.replace("\"spp\"", "\"ssp\""), "ssp"),
+        (plan.replace("turn.0002.png", "../turn.png"), "damaged"),
+        (plan.replace("        70,", "        70000000,"), "damaged"),
     ];
     for (text, words) in cases {
         fs::write(path.join("bad.plan"), text).unwrap();

@@ -36,6 +36,9 @@ impl Work<'_> {
         let unit = self.plan.unit(unit);
         let picture = &self.plan.pictures[unit.picture];
         let scene = self.scenes.scene(&picture.sets)?;
+        if (scene.settings.size, scene.settings.spp) != (picture.size, picture.spp) {
+            return Err(BatchError::Job("the plan's size or samples are not those of the scene".into()));
+        }
         let (number, samples, cost) = (unit.number, unit.samples.clone(), unit.cost());
         let part = self.store.resumed(Part::new(unit, scene.settings.aovs))?;
         let missing = part.missing();

@@ -5,6 +5,7 @@ use std::time::Duration;
 
 use clap::{ValueEnum, ValueHint};
 
+use crate::batch::plan::MOST_SHARDS;
 use crate::batch::{Plan, Split, emit};
 use crate::cli::ProgressMode;
 
@@ -18,7 +19,7 @@ pub struct PlanArgs {
     #[arg(short, long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub output: Option<PathBuf>,
     /// Shards that processes can render independently
-    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..=i64::from(MOST_SHARDS)))]
     pub shards: u32,
     /// What one unit of work is
     #[arg(long, value_name = "WHAT", default_value = "frames")]

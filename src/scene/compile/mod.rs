@@ -14,7 +14,8 @@ use crate::accel::Accel;
 use crate::describe::{Fault, SceneDescription};
 use crate::film::Aov;
 use crate::geometry::Geometry;
-use crate::load::{LoadError, Texture};
+use crate::intersect::TierName;
+use crate::load::{KeptMeshes, LoadError, Texture};
 use crate::math::TransformError;
 use materials::MaterialTable;
 use world::{Filled, World};
@@ -71,16 +72,31 @@ impl Scene {
     ///
     /// **Errors:** [`CompileError`], naming the object.
     pub fn compile(description: &SceneDescription) -> Result<Self, CompileError> {
+        Self::compile_like(description, &KeptMeshes::default(), None)
+    }
+
+    /// As [`Scene::compile`], with meshes that may be kept from before, and a tree that may be that of `like`, moved.
+    ///
+    /// Hits are those of a new tree in all tiers but `fast`, which therefore has a new one.
+    ///
+    /// **Errors:** [`CompileError`], naming the object.
+    pub fn compile_like(
+        description: &SceneDescription,
+        meshes: &KeptMeshes,
+        like: Option<&Self>,
+    ) -> Result<Self, CompileError> {
         let start = Instant::now();
         description.check().map_err(CompileError::Description)?;
         let mut table = MaterialTable::new(description);
         let settings = RenderSettings::of(description);
         let objects = ObjectRows::wanted(settings.aovs.has(Aov::ObjectId));
         let Filled { geometry, objects, skipped_triangles } =
-            World::compile(description, &mut table, objects)?;
+            World::compile(description, &mut table, meshes, objects)?;
         let (materials, textures) = table.finish();
         let load = start.elapsed();
-        let accel = Accel::build_with(&geometry, settings.build_quality);
+        let like = like.filter(|_| settings.tier != TierName::Fast);
+        let accel = like.and_then(|like| refitted(&like.accel, &geometry));
+        let accel = accel.unwrap_or_else(|| Accel::build_with(&geometry, settings.build_quality));
         let times = CompileTimes { load, build: start.elapsed() - load };
         let columns = Columns {
             geometry: Arc::new(geometry),
@@ -108,6 +124,12 @@ impl Scene {
         };
         columns.seen_by(description)
     }
+}
+
+/// A tree over primitives that moved, if it is one over these.
+fn refitted(accel: &Accel, geometry: &Geometry) -> Option<Accel> {
+    let mut moved = accel.clone();
+    moved.refit(geometry).is_ok().then_some(moved)
 }
 
 /// What of a scene does not depend on who looks at it.

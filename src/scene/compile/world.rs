@@ -8,6 +8,7 @@ use super::rows::{is_bent, rows};
 use crate::describe::{self, Objects, SceneDescription, Target};
 use crate::geometry::{Geometry, Group, Instance, NO_MATERIAL};
 use crate::intersect::PrimKind;
+use crate::load::KeptMeshes;
 use crate::scene::objects::{FirstNumbers, ObjectRows};
 
 /// Most instances of a scene: about a gigabyte of transforms.
@@ -41,6 +42,7 @@ enum Key {
 pub(super) struct World<'a> {
     pub(super) description: &'a SceneDescription,
     pub(super) table: &'a mut MaterialTable,
+    pub(super) meshes: &'a KeptMeshes,
     pub(super) geometry: Geometry,
     parts: Vec<Part>,
     part_of: HashMap<Key, usize>,
@@ -61,11 +63,13 @@ impl<'a> World<'a> {
     pub(super) fn compile(
         description: &'a SceneDescription,
         table: &'a mut MaterialTable,
+        meshes: &'a KeptMeshes,
         objects: ObjectRows,
     ) -> Result<Filled, CompileError> {
         let mut world = World {
             description,
             table,
+            meshes,
             geometry: Geometry::default(),
             // Part 0 is the world; its rows are filled last but its number is first.
             parts: vec![Part::default()],
