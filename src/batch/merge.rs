@@ -2,13 +2,15 @@
 
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::compose::{files, film};
 use super::part::Part;
 use super::picture::Picture;
 use super::plan::Split;
-use super::scenes::Scenes;
 use super::source::Source;
 use super::{BatchError, Plan, Store};
+use crate::wavefront::RenderError;
 
 /// Which units are done.
 #[derive(Clone, Debug)]
@@ -74,17 +76,13 @@ pub fn status(plan: &Plan, store: &Store) -> Result<Status, BatchError> {
 pub fn merge(plan: &Plan, folder: &Path, store: &Store, partial: bool) -> Result<u64, BatchError> {
     plan.check_sources(folder)?;
     let source = Source::read(&plan.scene, &folder.join(&plan.root))?;
-    let threads = super::default_threads();
-    let scenes = Scenes::new(&source, &plan.sets, threads, u64::MAX)?;
-    let mut pictures = 0;
-    for picture in &plan.pictures {
-        let there = match plan.split {
-            Split::Frames => whole(picture, store)?,
-            Split::Tiles | Split::Samples => joined(plan, picture, store, &scenes, partial)?,
-        };
-        pictures += u64::from(there);
-    }
-    Ok(pictures)
+    let workers = rayon::ThreadPoolBuilder::new().num_threads(super::default_threads()).build();
+    let there = |picture: &Picture| match plan.split {
+        Split::Frames => whole(picture, store),
+        Split::Tiles | Split::Samples => joined(plan, picture, store, &source, partial),
+    };
+    let count = || plan.pictures.par_iter().map(|picture| there(picture).map(u64::from)).sum();
+    workers.map_err(RenderError::from)?.install(count)
 }
 
 /// Whether a picture that is one unit is there, as it was written.
@@ -98,7 +96,7 @@ fn joined(
     plan: &Plan,
     picture: &Picture,
     store: &Store,
-    scenes: &Scenes,
+    source: &Source,
     partial: bool,
 ) -> Result<bool, BatchError> {
     let mut records = Vec::new();
@@ -112,7 +110,8 @@ fn joined(
     if records.is_empty() {
         return Ok(false);
     }
-    let scene = scenes.scene(&picture.sets)?;
+    let sets: Vec<String> = plan.sets.iter().chain(&picture.sets).cloned().collect();
+    let scene = source.view(&sets)?;
     let mut parts = Vec::new();
     for (unit, record) in records {
         let bytes = store.files(&record)?.pop().unwrap_or_default();

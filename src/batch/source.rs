@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use super::BatchError;
 use crate::describe::{self, SceneDescription};
 use crate::load::load_mesh;
+use crate::scene::Scene;
 
 /// Endings of meshes, which a scene is framed around.
 const MESHES: [&str; 3] = ["obj", "ply", "stl"];
@@ -40,6 +41,14 @@ impl Source {
     /// The scene of one picture.
     pub(super) fn with(&self, sets: &[String]) -> Result<SceneDescription, describe::DescribeError> {
         self.scene.clone().amended(&self.name, sets)
+    }
+
+    /// Camera and settings of one picture, without its objects: nothing is loaded or built.
+    pub(super) fn view(&self, sets: &[String]) -> Result<Scene, BatchError> {
+        let described = self.with(sets)?;
+        let mut view = SceneDescription::new(described.camera);
+        view.render = described.render;
+        Ok(Scene::compile(&view)?)
     }
 
     /// The scene as written.

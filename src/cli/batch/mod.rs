@@ -34,23 +34,23 @@ pub fn plan(args: &PlanArgs) -> Result<(), CliError> {
 
 /// `octray run`.
 pub fn run_plan(args: &RunArgs) -> Result<(), CliError> {
-    with_reporter(&args.work, |reporter| {
+    with_reporter(&args.work, |reporter, interrupt| {
         let plan = Plan::read(&args.plan)?;
         let environment = |name: &str| std::env::var(name).ok();
         let shard =
             args.shard.as_ref().map(|text| Shard::parse(text, plan.shards, environment)).transpose()?;
         Batch { plan: &plan, folder: folder_of(&args.plan), output: &args.output, shard, work: &args.work }
-            .run(reporter)
+            .run(reporter, interrupt)
     })
 }
 
 /// `octray batch`.
 pub fn run_job(args: &BatchArgs) -> Result<(), CliError> {
-    with_reporter(&args.work, |reporter| {
+    with_reporter(&args.work, |reporter, interrupt| {
         let plan = Plan::of(&Job::read(&args.job)?, args.split.into(), 1, Path::new(""))?;
         let batch =
             Batch { plan: &plan, folder: Path::new(""), output: &args.output, shard: None, work: &args.work };
-        let report = batch.run(reporter)?;
+        let report = batch.run(reporter, interrupt)?;
         if plan.split != Split::Frames {
             let store = Store::look(&args.output, &plan)?;
             batch::merge::merge(&plan, Path::new(""), &store, false)?;

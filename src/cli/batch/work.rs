@@ -12,20 +12,33 @@ use crate::cli::log;
 use crate::cli::pipeline::Progress;
 use crate::cli::progress::Reporter;
 use crate::cli::signals::Interrupt;
+use crate::cli::simd;
 
 /// Does `work` with somebody to tell the user, and tells how it ended.
 pub(super) fn with_reporter(
     args: &WorkArgs,
-    work: impl FnOnce(&Arc<Reporter>) -> Result<Summary, CliError>,
+    work: impl FnOnce(&Reporter, &Interrupt) -> Result<Summary, CliError>,
 ) -> Result<(), CliError> {
     let reporter = Arc::new(Reporter::new(args.progress, args.quiet));
-    match log::begin(args.log.as_deref()).and_then(|()| work(&reporter)) {
+    let begun = log::begin(args.log.as_deref()).and_then(|()| listen(&reporter));
+    match begun.and_then(|interrupt| work(&reporter, &interrupt)) {
         Ok(summary) => {
             reporter.done(&summary);
             Ok(())
         }
         Err(error) => Err(reporter.failed(error)),
     }
+}
+
+/// Until there is work to keep, a signal ends the program.
+fn listen(reporter: &Arc<Reporter>) -> Result<Interrupt, CliError> {
+    if let Some(advice) = simd::advice(simd::BUILT_FOR, simd::offered()) {
+        reporter.warn(&advice);
+    }
+    let told = Arc::clone(reporter);
+    Interrupt::install_patient(move || {
+        told.failed(CliError::new(Exit::Stopped, "stopped at once: what was kept before is there"))
+    })
 }
 
 /// A plan to be run.
@@ -40,12 +53,8 @@ pub(super) struct Batch<'a> {
 
 impl Batch<'_> {
     /// Renders what is not done.
-    pub(super) fn run(&self, reporter: &Arc<Reporter>) -> Result<Summary, CliError> {
+    pub(super) fn run(&self, reporter: &Reporter, interrupt: &Interrupt) -> Result<Summary, CliError> {
         let store = Store::open(self.output, self.plan, self.work.force)?;
-        let told = Arc::clone(reporter);
-        let interrupt = Interrupt::install_patient(move || {
-            told.failed(CliError::new(Exit::Stopped, "stopped at once: what was kept before is there"))
-        })?;
         interrupt.defer(true);
         let threads = match self.work.threads {
             0 => default_threads(),
