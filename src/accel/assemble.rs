@@ -1,6 +1,6 @@
 //! From the columns of a scene to its trees: one for the world, one for each group that an instance shows.
 
-use super::block::{CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
+use super::block::{CylinderBlock, SphereBlock, TriangleBlock};
 use super::build::{BuildPrimitive, Cuttable, KINDS, MAX_DEPTH, Quality, Tree, build};
 use super::instance::{PlacedTree, Placement, TreeRoot};
 use super::{Accel, BuiltGroup};
@@ -86,8 +86,10 @@ impl Accel {
 
     /// Puts instances and planes where the geometry has them.
     pub(super) fn place(&mut self, geometry: &Geometry) {
-        let place = |i: &Instance| PlacedTree { tree: self.groups[i.group].root, to_world: i.to_world };
-        self.instances = geometry.instances.iter().map(place).collect();
+        for placed in &mut self.instances {
+            let Instance { group, to_world, .. } = geometry.instances[placed.row as usize];
+            (placed.tree, placed.to_world) = (self.groups[group].root, to_world);
+        }
         let p = &geometry.planes;
         self.planes = (0..p.len()).map(|i| [row3(&p.point, i), row3(&p.normal, i)]).collect();
     }
@@ -98,7 +100,6 @@ impl Accel {
             triangles: Vec::new(),
             spheres: Vec::new(),
             cylinders: Vec::new(),
-            instance_blocks: Vec::new(),
             instances: Vec::new(),
             planes: Vec::new(),
             groups: Vec::new(),
@@ -115,7 +116,7 @@ impl Accel {
         by[PrimKind::Triangle as usize] = self.triangles.len() as u32;
         by[PrimKind::Sphere as usize] = self.spheres.len() as u32;
         by[PrimKind::Cylinder as usize] = self.cylinders.len() as u32;
-        by[Self::INSTANCE as usize] = self.instance_blocks.len() as u32;
+        by[Self::INSTANCE as usize] = self.instances.len() as u32;
         tree.offset(&by);
         let root = TreeRoot::new(by[0], &tree.bounds);
         pack(&mut self.triangles, &tree, &rows, PrimKind::Triangle as u8, |r| {
@@ -125,7 +126,8 @@ impl Accel {
         pack(&mut self.cylinders, &tree, &rows, PrimKind::Cylinder as u8, |r| {
             CylinderBlock::pack(geometry, r)
         });
-        pack(&mut self.instance_blocks, &tree, &rows, Self::INSTANCE, InstanceBlock::pack);
+        let placed = tree.leaves_of(Self::INSTANCE).iter().flat_map(|leaf| tree.primitives(leaf));
+        self.instances.extend(placed.map(|&number| PlacedTree::new(rows.row(Self::INSTANCE, number))));
         let entries = 7 * tree.max_depth.min(MAX_DEPTH) as usize + WIDTH;
         // A ray may be in the world's tree and in one group's at a time.
         self.stack_bound = self.stack_bound.max(2 * entries);

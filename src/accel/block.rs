@@ -102,15 +102,6 @@ pub struct CylinderBlock {
     len: u32,
 }
 
-/// Up to eight instances.
-#[derive(Clone, Debug)]
-pub struct InstanceBlock {
-    /// Rows of the scene's instances.
-    pub rows: [u32; WIDTH],
-    /// How many count.
-    pub len: u32,
-}
-
 /// Lane by lane from the rows of a leaf; NaN beyond them.
 #[inline(always)]
 fn lanes(rows: &[u32], value: impl Fn(usize) -> f32) -> [f32; WIDTH] {
@@ -198,14 +189,6 @@ impl CylinderBlock {
             radius: W::value(&self.radius, step),
             capped: W::flags(self.capped, step),
         }
-    }
-}
-
-impl InstanceBlock {
-    /// Packs rows of the instances.
-    pub fn pack(rows: &[u32]) -> Self {
-        let padded = std::array::from_fn(|i| rows.get(i).copied().unwrap_or(u32::MAX));
-        Self { rows: padded, len: rows.len() as u32 }
     }
 }
 

@@ -26,8 +26,8 @@ pub(super) trait Descend: Walk {
     fn entry(child: ChildRef) -> Self::Entry;
     /// Where an entry leads.
     fn child(entry: &Self::Entry) -> ChildRef;
-    /// True if any ray enters within its limit.
-    fn reaches(entry: &Self::Entry, limit: f32x8) -> bool;
+    /// How many rays enter within their limits.
+    fn reaching(entry: &Self::Entry, limit: f32x8) -> u32;
     /// Pushes the children that any ray meets within its range, the last to visit first.
     fn push_children(
         node: &Node8,
@@ -62,32 +62,68 @@ impl Octant {
     }
 }
 
+/// What it costs rays to visit together, and each of them to visit alone: nanoseconds on one Zen 4 core, from the rates of
+/// reflected, diffuse and occlusion rays through two scenes, both ways.
+struct Costs {
+    /// A node, for all rays of a packet: cheaper where they agree on which planes come first.
+    node: i32,
+}
+
+impl Costs {
+    /// A leaf, for all rays of a packet.
+    const LEAF: i32 = 150;
+    /// A node and a leaf, for a ray alone.
+    const ONE_IN_NODE: i32 = 15;
+    const ONE_IN_LEAF: i32 = 12;
+    /// Starting eight rays, each alone.
+    const START: i32 = 250;
+
+    fn of(octant: Octant) -> Self {
+        Self { node: if octant.shared { 21 } else { 45 } }
+    }
+    /// What so many rays save by visiting together.
+    #[inline(always)]
+    fn saved(&self, child: ChildRef, rays: u32) -> i32 {
+        let rays = rays as i32;
+        if child.is_node() {
+            Self::ONE_IN_NODE * rays - self.node
+        } else {
+            Self::ONE_IN_LEAF * rays - Self::LEAF
+        }
+    }
+}
+
 /// Puts everything below `root` that the rays may hit to the query. The stack never outgrows its capacity, which the
 /// builder bounds by the depth of the tree.
+///
+/// Gives what a packet saved by going together, as estimated from what it visited.
 pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
     accel: &Accel,
     root: u32,
     rays: &PreparedRays<T>,
     query: &mut Q,
     stack: &mut Vec<D::Entry>,
-) {
+) -> i32 {
     let base = stack.len();
     let t_min = T::below_f32(rays.test.ray.t_min);
     let octant = Octant::of(&rays.cull);
+    let (costs, mut saved) = (Costs::of(octant), Costs::START);
     stack.push(D::entry(ChildRef::node(root)));
     while stack.len() > base && !query.is_done() {
         let Some(entry) = stack.pop() else { break };
         let limit = T::above_f32(query.limit());
-        if !D::reaches(&entry, limit) {
+        let rays_in = D::reaching(&entry, limit);
+        if rays_in == 0 {
             continue;
         }
         let child = D::child(&entry);
+        saved += costs.saved(child, rays_in);
         if child.is_node() {
             let node = &accel.nodes[child.index() as usize];
             D::push_children(node, &rays.cull, octant, (t_min, limit), stack);
         } else if child.kind() == Accel::INSTANCE {
-            accel.visit_instances::<T, Q>(child, &rays.test.ray, query, |root, local, query| {
-                descend::<T, D, Q>(accel, root, local, query, stack)
+            accel.visit_instance::<T, Q>(child, &rays.test.ray, query, |root, local, query| {
+                saved += descend::<T, D, Q>(accel, root, local, query, stack);
             });
         } else if with_block(accel, child, &mut AllSteps { rays: &rays.test, query, walk: PhantomData::<D> })
             && D::ONE_RAY
@@ -96,4 +132,5 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
         }
     }
     stack.truncate(base);
+    saved
 }

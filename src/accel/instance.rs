@@ -56,8 +56,17 @@ impl TreeRoot {
 /// The tree of a group seen through an instance.
 #[derive(Clone, Debug)]
 pub(super) struct PlacedTree {
+    /// Row of the instance.
+    pub(super) row: u32,
     pub(super) tree: TreeRoot,
     pub(super) to_world: Transform,
+}
+
+impl PlacedTree {
+    /// An instance, still to be placed.
+    pub(super) fn new(row: u32) -> Self {
+        Self { row, tree: TreeRoot::default(), to_world: Transform::IDENTITY }
+    }
 }
 
 /// Boxes of all instances of a scene.
@@ -111,22 +120,24 @@ impl Accel {
         RayLanes { origin: Vec3::narrow(origin), direction: Vec3::narrow(direction), ..*ray }
     }
 
-    /// Takes a query through each instance of a leaf, in the space of its group.
+    /// The instance of a leaf.
+    pub(super) fn placed(&self, leaf: ChildRef) -> &PlacedTree {
+        &self.instances[leaf.index() as usize]
+    }
+
+    /// Takes a query through the instance of a leaf, in the space of its group.
     #[inline(never)]
-    pub(super) fn visit_instances<T: Tier, Q: Query<T::Wide>>(
+    pub(super) fn visit_instance<T: Tier, Q: Query<T::Wide>>(
         &self,
         leaf: ChildRef,
         ray: &RayLanes<T::Wide>,
         query: &mut Q,
-        mut traverse: impl FnMut(u32, &PreparedRays<T>, &mut Q),
+        traverse: impl FnOnce(u32, &PreparedRays<T>, &mut Q),
     ) {
-        let block = &self.instance_blocks[leaf.index() as usize];
-        for &row in &block.rows[..block.len as usize] {
-            let placed = &self.instances[row as usize];
-            let local = Self::local_rays(&placed.to_world, ray);
-            query.enter_instance(row + 1);
-            traverse(placed.tree.node, &PreparedRays::new(local, placed.tree), query);
-        }
+        let placed = self.placed(leaf);
+        let local = Self::local_rays(&placed.to_world, ray);
+        query.enter_instance(placed.row + 1);
+        traverse(placed.tree.node, &PreparedRays::new(local, placed.tree), query);
         query.enter_instance(0);
     }
 }

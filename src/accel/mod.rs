@@ -23,7 +23,7 @@ mod unchecked;
 pub mod validate;
 pub mod visits;
 
-use block::{Block, CylinderBlock, InstanceBlock, SphereBlock, TriangleBlock};
+use block::{Block, CylinderBlock, SphereBlock, TriangleBlock};
 use node::{ChildRef, Node8};
 
 use crate::geometry::Group;
@@ -44,7 +44,7 @@ pub struct Accel {
     triangles: Vec<TriangleBlock>,
     spheres: Vec<SphereBlock>,
     cylinders: Vec<CylinderBlock>,
-    instance_blocks: Vec<InstanceBlock>,
+    /// In the order of their leaves.
     instances: Vec<PlacedTree>,
     planes: Vec<[[f32; 3]; 2]>,
     groups: Vec<BuiltGroup>,
@@ -62,7 +62,7 @@ struct BuiltGroup {
 
 impl Accel {
     /// Kind number of leaves that hold instances.
-    const INSTANCE: u8 = 4;
+    const INSTANCE: u8 = build::SOLITARY;
 
     /// Box of everything but planes, which have none.
     pub fn bounds(&self) -> Aabb {
@@ -74,15 +74,14 @@ impl Accel {
     }
     /// Leaves of all trees.
     pub fn leaf_count(&self) -> usize {
-        self.triangles.len() + self.spheres.len() + self.cylinders.len() + self.instance_blocks.len()
+        self.triangles.len() + self.spheres.len() + self.cylinders.len() + self.instances.len()
     }
     /// Places in leaves that are taken: as many as primitives and instances, and more where triangles are cut.
     pub fn reference_count(&self) -> usize {
         fn held<B: Block>(blocks: &[B]) -> usize {
             blocks.iter().map(|block| block.count() as usize).sum()
         }
-        let instances = self.instance_blocks.iter().map(|block| block.len as usize).sum::<usize>();
-        held(&self.triangles) + held(&self.spheres) + held(&self.cylinders) + instances
+        held(&self.triangles) + held(&self.spheres) + held(&self.cylinders) + self.instances.len()
     }
     /// Name and bytes of each array.
     pub fn memory(&self) -> Vec<(String, u64)> {
@@ -91,7 +90,7 @@ impl Accel {
             ("tree.triangle_blocks", size_of_val(&self.triangles[..])),
             ("tree.sphere_blocks", size_of_val(&self.spheres[..])),
             ("tree.cylinder_blocks", size_of_val(&self.cylinders[..])),
-            ("tree.instances", size_of_val(&self.instance_blocks[..]) + size_of_val(&self.instances[..])),
+            ("tree.instances", size_of_val(&self.instances[..])),
         ];
         sizes.map(|(name, size)| (name.to_owned(), size as u64)).to_vec()
     }

@@ -29,8 +29,8 @@ impl Descend for RaysByPrimitive {
         entry.child
     }
     #[inline(always)]
-    fn reaches(entry: &Entry, limit: f32x8) -> bool {
-        Lane::le(entry.near, limit).any()
+    fn reaching(entry: &Entry, limit: f32x8) -> u32 {
+        Lane::le(entry.near, limit).bits().count_ones()
     }
 
     #[inline(always)]

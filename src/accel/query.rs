@@ -5,6 +5,8 @@ use crate::math::{BitLane, Lane, Mask};
 
 /// A question put to the tree by the rays of a packet, or by one ray splatted over the lanes.
 pub trait Query<L: Lane> {
+    /// Any hit will do, so the order of visits hardly matters.
+    const ANY: bool;
     /// Lanes need nothing at or beyond this `t`; minus infinity where a lane needs nothing more.
     fn limit(&self) -> L;
     /// Takes note of candidates; true if any was accepted.
@@ -67,6 +69,8 @@ impl<L: Lane> Closest<L> {
 }
 
 impl<L: Lane> Query<L> for Closest<L> {
+    const ANY: bool = false;
+
     #[inline(always)]
     fn limit(&self) -> L {
         self.limit
@@ -155,6 +159,8 @@ impl<L: Lane> AnyHit<L> {
 }
 
 impl<L: Lane> Query<L> for AnyHit<L> {
+    const ANY: bool = true;
+
     #[inline(always)]
     fn limit(&self) -> L {
         self.limit

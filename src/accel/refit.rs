@@ -6,7 +6,7 @@ use super::Accel;
 use super::block::{Block, CylinderBlock, SphereBlock, TriangleBlock};
 use super::instance::{PlacedTree, Placement, TreeRoot};
 use super::node::ChildRef;
-use crate::geometry::{Geometry, Instance};
+use crate::geometry::Geometry;
 use crate::intersect::{PrimId, PrimKind};
 use crate::math::{Aabb, WIDTH};
 
@@ -57,10 +57,11 @@ impl Accel {
         let rows = self.groups.iter().map(|group| &group.rows);
         same(rows.eq(&geometry.groups), "groups")?;
         same(self.instances.len() == geometry.instances.len(), "instances")?;
-        let shows = |(built, given): (&PlacedTree, &Instance)| {
-            self.groups.get(given.group).is_some_and(|group| group.root.node == built.tree.node)
+        let shows = |placed: &PlacedTree| {
+            let group = geometry.instances[placed.row as usize].group;
+            self.groups.get(group).is_some_and(|group| group.root.node == placed.tree.node)
         };
-        same(self.instances.iter().zip(&geometry.instances).all(shows), "instances")?;
+        same(self.instances.iter().all(shows), "instances")?;
         same(self.planes.len() == geometry.planes.len(), "planes")
     }
 
@@ -124,10 +125,7 @@ impl Accel {
             TRIANGLE => boxes.triangles[at],
             SPHERE => Some(boxes.spheres[at]),
             CYLINDER => Some(boxes.cylinders[at]),
-            _ => {
-                let block = &self.instance_blocks[at];
-                Some(around(&block.rows[..block.len as usize], |row| placed[row]))
-            }
+            _ => Some(placed[self.instances[at].row as usize]),
         }
     }
 }

@@ -36,8 +36,8 @@ impl Descend for PrimitivesByRay {
         entry.child
     }
     #[inline(always)]
-    fn reaches(entry: &Entry, limit: f32x8) -> bool {
-        entry.near <= Lane::get(limit, 0)
+    fn reaching(entry: &Entry, limit: f32x8) -> u32 {
+        u32::from(entry.near <= Lane::get(limit, 0))
     }
 
     #[inline(always)]

@@ -10,7 +10,7 @@ use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH, three};
 /// How the rays of a packet lie to each other. It changes time, never results.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Hint {
-    /// Looks at the directions and decides.
+    /// Goes by how rays before fared.
     #[default]
     Auto,
     /// Neighbouring rays go nearly the same way: they traverse together.
@@ -22,19 +22,53 @@ pub enum Hint {
 /// Nodes of a tree that packets of any rays go through together.
 const SMALL_TREE: usize = 8;
 
+/// Most packets that go alone before one is tried together again.
+const LONGEST_PAUSE: u32 = 64;
+
+/// Whether packets pay, as those before tell: where they do not, the more seldom they are tried.
+#[derive(Clone, Copy, Debug, Default)]
+struct Pace {
+    /// Packets to come that go alone.
+    rest: u32,
+    /// Packets that went alone after the last that did not pay.
+    pause: u32,
+}
+
+impl Pace {
+    /// True if the next packet is to go together.
+    #[inline(always)]
+    fn tries(&mut self) -> bool {
+        let tries = self.rest == 0;
+        self.rest -= u32::from(!tries);
+        tries
+    }
+    /// Takes note of what the last packet saved by going together.
+    #[inline(always)]
+    fn learn(&mut self, saved: i32) {
+        self.pause = if saved >= 0 { 0 } else { (2 * self.pause + 1).min(LONGEST_PAUSE) };
+        self.rest = self.pause;
+    }
+}
+
 /// Scratch of one worker for traversals: stacks as deep as the tree needs.
 #[derive(Debug)]
 pub struct Traversal<'a> {
     accel: &'a Accel,
     pub(super) packet_stack: Vec<packet::Entry>,
     pub(super) single_stack: Vec<single::Entry>,
+    pace: Pace,
 }
 
 impl<'a> Traversal<'a> {
     /// Scratch for a tree.
     pub fn new(accel: &'a Accel) -> Self {
         let bound = accel.stack_bound;
-        Self { accel, packet_stack: Vec::with_capacity(bound), single_stack: Vec::with_capacity(bound) }
+        Self {
+            accel,
+            packet_stack: Vec::with_capacity(bound),
+            single_stack: Vec::with_capacity(bound),
+            pace: Pace::default(),
+        }
     }
 
     /// The nearest hit of each of eight rays; a lane whose `t` is still the ray's `t_max` has none.
@@ -57,36 +91,49 @@ impl<'a> Traversal<'a> {
 
     /// Puts what is in the tree to the query of eight rays.
     #[inline]
-    pub(super) fn ask_tree<T: Tier, Q: Query<T::Wide>>(
-        &mut self,
-        ray: &RayLanes<T::Wide>,
-        hint: Hint,
-        query: &mut Q,
-    ) {
-        let (accel, world) = (self.accel, self.accel.world);
-        let (root, rays) = (world.node, PreparedRays::<T>::new(*ray, world));
-        if self.together::<T>(ray, hint) {
-            return descend::<T, RaysByPrimitive, _>(accel, root, &rays, query, &mut self.packet_stack);
+    fn ask_tree<T: Tier, Q: Query<T::Wide>>(&mut self, ray: &RayLanes<T::Wide>, hint: Hint, query: &mut Q) {
+        if self.together::<T, Q>(ray, hint) {
+            return self.ask_together::<T, Q>(ray, query);
         }
+        let (accel, world) = (self.accel, self.accel.world);
         for lane in 0..WIDTH {
             if !query.asks(lane) {
                 continue;
             }
             let rays = PreparedRays::<T>::new(RayLanes::splat(&ray.get(lane)), world);
             let mut alone = query.splat_lane(lane);
-            descend::<T, PrimitivesByRay, _>(accel, root, &rays, &mut alone, &mut self.single_stack);
+            descend::<T, PrimitivesByRay, _>(accel, world.node, &rays, &mut alone, &mut self.single_stack);
             query.take_lane(lane, &alone);
         }
     }
 
-    /// Whether a packet traverses together: when told so, when all rays go into one octant, or when the tree is so small
-    /// that rays share most of it wherever they go.
+    /// [`Self::ask_tree`] for rays that traverse together.
+    #[inline]
+    pub(super) fn ask_together<T: Tier, Q: Query<T::Wide>>(
+        &mut self,
+        ray: &RayLanes<T::Wide>,
+        query: &mut Q,
+    ) {
+        let (accel, world) = (self.accel, self.accel.world);
+        let rays = PreparedRays::<T>::new(*ray, world);
+        let stack = &mut self.packet_stack;
+        let saved = descend::<T, RaysByPrimitive, _>(accel, world.node, &rays, query, stack);
+        self.pace.learn(saved);
+    }
+
+    /// Whether a packet traverses together: when told so, when the tree is so small that rays share most of it wherever
+    /// they go, or when it paid lately and the rays agree on the order of visits, if that matters.
     #[inline(always)]
-    pub(super) fn together<T: Tier>(&self, ray: &RayLanes<T::Wide>, hint: Hint) -> bool {
+    pub(super) fn together<T: Tier, Q: Query<T::Wide>>(
+        &mut self,
+        ray: &RayLanes<T::Wide>,
+        hint: Hint,
+    ) -> bool {
         match hint {
             Hint::Coherent => true,
             Hint::Incoherent => false,
-            Hint::Auto => self.accel.nodes.len() <= SMALL_TREE || one_octant(ray.direction),
+            Hint::Auto if self.accel.nodes.len() <= SMALL_TREE => true,
+            Hint::Auto => (Q::ANY || one_octant(ray.direction)) && self.pace.tries(),
         }
     }
 }

@@ -5,8 +5,8 @@
 mod fault;
 
 use super::build::{
-    BLOCK_CYCLES, BuildPrimitive, Cuttable, KINDS, LEAF_SIZE, Leaf, MAX_DEPTH, NODE_CYCLES, Tree, Uncut,
-    half_area,
+    BLOCK_CYCLES, BuildPrimitive, Cuttable, KINDS, LEAF_SIZE, Leaf, MAX_DEPTH, NODE_CYCLES, SOLITARY, Tree,
+    Uncut, half_area,
 };
 use super::cover::covers;
 use super::node::ChildRef;
@@ -140,15 +140,15 @@ impl<'a, C: Cuttable> Walk<'a, C> {
         self.tree.leaves.get(at).filter(|leaf| leaf.kind == child.kind()).map(|_| at)
     }
 
-    /// The primitives of a well-formed leaf: one to eight, in range, of its kind, ascending.
+    /// The primitives of a well-formed leaf: one to eight, in range, of its kind, ascending; one of the solitary kind.
     fn held(&self, leaf: &Leaf) -> Option<&'a [u32]> {
         let first = leaf.first as usize;
         let held = self.tree.order.get(first..first + usize::from(leaf.len))?;
         let of_kind =
             |&number: &u32| self.primitives.get(number as usize).is_some_and(|p| p.kind == leaf.kind);
-        let well_formed = (1..=LEAF_SIZE).contains(&held.len())
-            && held.iter().all(of_kind)
-            && held.is_sorted_by(|a, b| a < b);
+        let most = if leaf.kind == SOLITARY { 1 } else { LEAF_SIZE };
+        let well_formed =
+            (1..=most).contains(&held.len()) && held.iter().all(of_kind) && held.is_sorted_by(|a, b| a < b);
         well_formed.then_some(held)
     }
 

@@ -90,10 +90,12 @@ fn encode(pixels: &[[f32; 3]], tone: Tone, bytes: &mut Vec<u8>, curve: impl Fn([
     let table = SrgbTable::get();
     let gain = libm::exp2f(tone.exposure_ev.clamp(-MAX_STOPS, MAX_STOPS));
     let mut nan_values = 0;
-    for pixel in pixels {
+    let start = bytes.len();
+    bytes.resize(start + 3 * pixels.len(), 0);
+    for (pixel, bytes) in pixels.iter().zip(bytes[start..].as_chunks_mut().0) {
         nan_values += pixel.iter().filter(|value| value.is_nan()).count() as u64;
         let light = curve(three(|c| expose(pixel[c], gain)));
-        bytes.extend_from_slice(&three(|c| table.encode(light[c])));
+        *bytes = three(|c| table.encode(light[c]));
     }
     nan_values
 }

@@ -60,7 +60,7 @@ impl<'a, L: Lane> Looked<'a, L> {
             true => albedo(scene, &materials, surface.uv),
             false => Vec3::splat_f32([0.0; 3]),
         };
-        Self { kind, hit, surface, normals: facing(hit, surface).1, materials, albedo }
+        Self { kind, hit, surface, normals: facing(hit, surface), materials, albedo }
     }
 
     fn sample(&self, scene: &Scene, primitive: u32, i: usize) -> AovSample {

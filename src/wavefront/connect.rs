@@ -89,7 +89,7 @@ fn reflected<T: Tier, const FRACTION: bool>(
     to_light: Vec3<T::Wide>,
 ) -> Vec3<T::Wide> {
     let scene = worker.frame.scene;
-    let (normal, wo) = (surfaces.shading_normal.load(at), -surfaces.direction.load(at));
+    let (normal, wo) = (surfaces.shading_normal().load(at), -surfaces.direction.load(at));
     let diffuse = surfaces.diffuse::<T::Wide>(scene, at);
     if !scene.requirements.highlights {
         return diffuse * normal.dot(to_light).max(T::Wide::zero());

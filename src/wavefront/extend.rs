@@ -32,7 +32,7 @@ pub(super) fn extend<'a, T: Tier>(
     arena: &'a Bump,
 ) -> Hits<'a, T::Real> {
     let requirements = &worker.frame.scene.requirements;
-    let list = || bumpalo::collections::Vec::new_in(arena);
+    let list = || bumpalo::collections::Vec::with_capacity_in(n, arena);
     let mut hits = Hits {
         t: column(arena, n),
         u: column(arena, n),

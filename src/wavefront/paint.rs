@@ -14,6 +14,9 @@ use crate::intersect::{Exact, Fast, Tier, TierName, Watertight};
 use crate::math::Real;
 use crate::scene::Scene;
 
+/// Bytes that a full queue with all its columns hardly exceeds; those that stay untouched cost nothing.
+const ARENA: usize = 1 << 20;
+
 /// What became of a tile.
 pub(crate) struct Painted<'a> {
     /// Left, top, width, height.
@@ -90,7 +93,7 @@ impl<'a, T: Tier> Painter<'a, T> {
                 radiance: SampleSums::default(),
                 rays: RayCounts::default(),
             },
-            arenas: (0..=depths).map(|_| Bump::new()).collect(),
+            arenas: (0..=depths).map(|_| Bump::with_capacity(ARENA)).collect(),
             pixels: Vec::new(),
             sums: Vec::new(),
             weights: Vec::new(),

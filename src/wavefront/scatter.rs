@@ -69,7 +69,7 @@ fn gather<T: Tier>(
         point: surfaces.point.gather(rows),
         error: column_rows(surfaces.error, rows),
         geometric_normal: surfaces.geometric_normal.gather(rows),
-        shading_normal: surfaces.shading_normal.gather(rows),
+        shading_normal: surfaces.shading_normal().gather(rows),
         direction: surfaces.direction.gather(rows),
         weight,
         materials,

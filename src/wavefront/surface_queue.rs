@@ -10,7 +10,7 @@ use super::surface::{HitLanes, SurfaceLanes, evaluate};
 use crate::geometry::{NO_MATERIAL, gather3};
 use crate::intersect::PrimId;
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
-use crate::scene::{NO_TEXTURE, Scatter, Scene, sample_texture};
+use crate::scene::{NO_TEXTURE, Requirements, Scatter, Scene, sample_texture};
 
 /// One row for each path that hit something, in the order of primitive kinds.
 ///
@@ -19,9 +19,9 @@ pub(super) struct SurfaceQueue<'a, R> {
     pub(super) len: usize,
     pub(super) point: Column3<'a, R>,
     pub(super) error: &'a mut [R],
-    /// Both normals on the side that the path came from.
+    /// Both normals on the side that the path came from; the second is none where the scene has no normals of its own.
     pub(super) geometric_normal: Column3<'a, R>,
-    pub(super) shading_normal: Column3<'a, R>,
+    shading_normal: Option<Column3<'a, R>>,
     pub(super) direction: Column3<'a, R>,
     pub(super) throughput: Column3<'a, R>,
     /// Diffuse coefficient after textures; empty where the scene has none, and the material's counts.
@@ -37,19 +37,20 @@ pub(super) struct SurfaceQueue<'a, R> {
 }
 
 impl<'a, R: Real> SurfaceQueue<'a, R> {
-    fn new(arena: &'a Bump, capacity: usize, textures: bool) -> Self {
+    fn new(arena: &'a Bump, capacity: usize, needs: &Requirements) -> Self {
         // Each kind of primitive may end in a packet that is not full.
         let n = capacity + WIDTH;
-        let list = || bumpalo::collections::Vec::new_in(arena);
+        let listed = if needs.children() == 0 { 0 } else { capacity };
+        let list = || bumpalo::collections::Vec::with_capacity_in(listed, arena);
         Self {
             len: 0,
             point: Column3::new(arena, n),
             error: column(arena, n),
             geometric_normal: Column3::new(arena, n),
-            shading_normal: Column3::new(arena, n),
+            shading_normal: needs.shading_normals.then(|| Column3::new(arena, n)),
             direction: Column3::new(arena, n),
             throughput: Column3::new(arena, n),
-            diffuse: textures.then(|| Column3::new(arena, n)),
+            diffuse: needs.textures.then(|| Column3::new(arena, n)),
             slot: column(arena, n),
             material: column(arena, n),
             path: column(arena, n),
@@ -67,7 +68,7 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         arena: &'a Bump,
     ) -> Self {
         let capacity = hits.by_kind.iter().map(|list| list.len()).sum();
-        let mut surfaces = Self::new(arena, capacity, scene.requirements.textures);
+        let mut surfaces = Self::new(arena, capacity, &scene.requirements);
         for (kind, list) in KINDS.into_iter().zip(&hits.by_kind) {
             for at in (0..list.len()).step_by(WIDTH) {
                 let (rows, lanes) = list_lanes(list, at);
@@ -97,11 +98,16 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         lanes: u32,
     ) {
         let at = self.len;
-        let (inside, [geometric_normal, shading_normal]) = facing(hit, &surface);
+        let inside = from_inside(hit, &surface);
+        let facing = |n: Vec3<L>| Vec3::select(inside, -n, n);
+        let geometric_normal = facing(surface.geometric_normal);
         self.point.compress(at, surface.point, lanes);
         compress(self.error, at, surface.error, lanes);
         self.geometric_normal.compress(at, geometric_normal, lanes);
-        self.shading_normal.compress(at, shading_normal, lanes);
+        if let Some(normal) = &mut self.shading_normal {
+            let facing = towards(facing(surface.shading_normal), geometric_normal, hit.direction);
+            normal.compress(at, facing, lanes);
+        }
         self.direction.compress(at, hit.direction, lanes);
         self.throughput.compress(at, queue.throughput.gather::<L>(paths), lanes);
         if let Some(diffuse) = &mut self.diffuse {
@@ -111,6 +117,7 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         compress_words(self.slot, at, &paths.map(|path| queue.slot[path]), lanes);
         compress_words(self.material, at, materials, lanes);
         compress_words(self.path, at, &paths.number, lanes);
+        let inside = inside.bits();
         compress_words(self.from_inside, at, &eight(|i| inside >> i & 1), lanes);
         if scene.requirements.children() > 0 {
             self.sort_by_scatter(scene, materials, lanes);
@@ -150,6 +157,10 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
     pub(super) fn slot(&self, row: usize) -> u32 {
         self.slot[row]
     }
+    /// Shading normals, by row.
+    pub(super) fn shading_normal(&self) -> &Column3<'a, R> {
+        self.shading_normal.as_ref().unwrap_or(&self.geometric_normal)
+    }
     /// Diffuse coefficients of eight rows.
     #[inline(always)]
     pub(super) fn diffuse<L: Lane<Scalar = R>>(&self, scene: &Scene, at: usize) -> Vec3<L> {
@@ -160,14 +171,19 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
     }
 }
 
-/// The lanes whose rays come from inside, against the outward normal, and both normals on the side that rays come from.
+/// The lanes whose rays come from inside, against the outward normal.
 #[inline(always)]
-pub(super) fn facing<L: Lane>(hit: &HitLanes<L>, surface: &SurfaceLanes<L>) -> (u32, [Vec3<L>; 2]) {
-    let inside = hit.direction.dot(surface.geometric_normal).gt(L::zero());
-    let turned = |n: Vec3<L>| Vec3::select(inside, -n, n);
-    let geometric_normal = turned(surface.geometric_normal);
-    let shading_normal = towards(turned(surface.shading_normal), geometric_normal, hit.direction);
-    (inside.bits(), [geometric_normal, shading_normal])
+fn from_inside<L: Lane>(hit: &HitLanes<L>, surface: &SurfaceLanes<L>) -> L::Mask {
+    hit.direction.dot(surface.geometric_normal).gt(L::zero())
+}
+
+/// Geometric and shading normal on the side that rays come from.
+#[inline(always)]
+pub(super) fn facing<L: Lane>(hit: &HitLanes<L>, surface: &SurfaceLanes<L>) -> [Vec3<L>; 2] {
+    let inside = from_inside(hit, surface);
+    let [geometric, shading] =
+        [surface.geometric_normal, surface.shading_normal].map(|n| Vec3::select(inside, -n, n));
+    [geometric, towards(shading, geometric, hit.direction)]
 }
 
 #[inline(always)]

@@ -23,7 +23,7 @@ pub(crate) fn pixels(tile: Rect, list: &mut Vec<[u32; 2]>) {
     list.clear();
     for bundle in parts(tile, BUNDLE) {
         for [x, y, width, height] in parts(bundle, BLOCK) {
-            list.extend((y..y + height).flat_map(|y| (x..x + width).map(move |x| [x, y])));
+            (y..y + height).for_each(|y| list.extend((x..x + width).map(|x| [x, y])));
         }
     }
 }

@@ -7,8 +7,8 @@
 
 use wide::f32x4;
 
-use super::LEAF_SIZE;
 use super::item::{Box4, Extent, Item, longest_axis, partition, reduce};
+use super::{LEAF_SIZE, SOLITARY};
 
 /// Bins on an axis; powers of two, so that an index is confined by a mask. Short ranges, which are most of them, spend
 /// their time on the bins rather than on the items.
@@ -114,8 +114,9 @@ impl<const BINS: usize> Bins<BINS> {
     fn of_run(items: &[Item], binning: &Binning) -> Self {
         let mut bins = Self { sides: [[Side::EMPTY; BINS]; 3] };
         for item in items {
+            let side = Side::of(item);
             for (sides, bin) in bins.sides.iter_mut().zip(binning.bins::<BINS>(item)) {
-                sides[bin].add(Side { bounds: item.bounds, count: 1 });
+                sides[bin].add(side);
             }
         }
         bins
@@ -146,7 +147,7 @@ fn sides_on<const BINS: usize>(axis: usize, items: &[Item], extent: &Extent) -> 
     let run = |run: &[Item]| {
         let mut sides = [Side::EMPTY; BINS];
         for item in run {
-            sides[binning.bins::<BINS>(item)[axis]].add(Side { bounds: item.bounds, count: 1 });
+            sides[binning.bins::<BINS>(item)[axis]].add(Side::of(item));
         }
         sides
     };
@@ -193,6 +194,12 @@ pub(super) struct Side {
 
 impl Side {
     pub(super) const EMPTY: Self = Self { bounds: Box4::EMPTY, count: 0 };
+
+    /// One item; what has a leaf of its own counts for a full one.
+    #[inline(always)]
+    fn of(item: &Item) -> Self {
+        Self { bounds: item.bounds, count: if item.kind() == SOLITARY { LEAF_SIZE as u32 } else { 1 } }
+    }
 
     #[inline(always)]
     pub(super) fn add(&mut self, o: Self) {

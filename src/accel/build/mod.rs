@@ -1,7 +1,8 @@
 //! From boxes of primitives to the 8-wide tree; what the primitives are does not matter here.
 //!
 //! 1. `item`: boxes and numbers in 32 bytes a primitive, which all later steps reorder in place.
-//! 2. `bins`, `split`, `binary`: a binary tree by the binned surface area heuristic, leaves up to eight of a kind.
+//! 2. `bins`, `split`, `binary`: a binary tree by the binned surface area heuristic, leaves up to eight of a kind, instances
+//!    one by one.
 //!    `slab`, `spatial`, `cut`: for [`Quality::High`] also by planes that cut triangles.
 //! 3. `plan`, `collapse`: binary nodes become wide nodes and leaves, at the least expected cost.
 //! 4. `octant`: children take the slots that make `slot ^ octant` the order of visits.
@@ -31,6 +32,10 @@ use item::{GRAIN, Item};
 
 /// Most primitives in a leaf: what one block holds.
 pub const LEAF_SIZE: usize = WIDTH;
+
+/// The kind whose primitives each have a leaf, so that no two share a box: entering an instance costs as much as many
+/// primitives.
+pub const SOLITARY: u8 = 4;
 
 /// No tree is deeper, whatever its input; a traversal stack of `7 * MAX_DEPTH + 1` entries is always enough.
 pub const MAX_DEPTH: u32 = 64;

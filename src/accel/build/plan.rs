@@ -6,7 +6,7 @@
 
 use super::binary::BinaryNode;
 use super::item::{GRAIN, Item};
-use super::{BLOCK_CYCLES, LEAF_SIZE, NODE_CYCLES, half_area};
+use super::{BLOCK_CYCLES, LEAF_SIZE, NODE_CYCLES, SOLITARY, half_area};
 use crate::math::WIDTH;
 
 /// Most roots that a subtree contributes to the node above, whose other child has at least one.
@@ -43,7 +43,7 @@ impl Plan {
         let mut plan = Self::UNKNOWN;
         let (below, from_left) = share(a, b, WIDTH);
         (plan.cost[0], plan.left[0]) = (NODE_CYCLES as f32 * area + below, from_left);
-        if a.kind == b.kind && len as usize <= LEAF_SIZE {
+        if a.kind == b.kind && a.kind != SOLITARY && len as usize <= LEAF_SIZE {
             plan.kind = a.kind;
         }
         let block = BLOCK_CYCLES as f32 * area;

@@ -2,7 +2,7 @@
 
 use super::bins::{Cut, best_cut, part, quick_cut};
 use super::item::{Extent, Item, longest_axis, partition};
-use super::{LEAF_SIZE, MAX_DEPTH, Quality};
+use super::{LEAF_SIZE, MAX_DEPTH, Quality, SOLITARY};
 
 /// What a split must save to part a range that fits one leaf, in blocks. Above the 0.08 that are a node's cycles over a
 /// block's, divided by the seven splits that a node holds: every leaf also takes a whole block of memory. 0.08 saves rays
@@ -14,19 +14,20 @@ const SPLIT_COST: f64 = 0.2;
 ///
 /// `depth` is the number of splits above. Near [`MAX_DEPTH`] only halving is left, so no input can build deeper.
 pub(super) fn split(items: &mut [Item], extent: &Extent, depth: u32, quality: Quality) -> Option<usize> {
-    let fits_leaf = items.len() <= LEAF_SIZE;
-    let one_kind = fits_leaf && items.iter().all(|item| item.kind() == items[0].kind());
+    let few = items.len() <= LEAF_SIZE;
+    let one_kind = few && items.iter().all(|item| item.kind() == items[0].kind());
+    let fits_leaf = one_kind && (items.len() == 1 || items[0].kind() != SOLITARY);
     if depth + halvings(items.len()) >= MAX_DEPTH {
-        return (!one_kind).then(|| halve(items, extent));
+        return (!fits_leaf).then(|| halve(items, extent));
     }
-    if fits_leaf && !one_kind {
+    if few && !one_kind {
         return Some(split_off_kind(items));
     }
     if quality == Quality::Fast {
-        return (!one_kind).then(|| part_by(items, extent, quick_cut(items, extent)));
+        return (!fits_leaf).then(|| part_by(items, extent, quick_cut(items, extent)));
     }
     let cut = best_cut(items, extent);
-    if one_kind && cut.is_none_or(|cut| !pays(&cut, extent)) {
+    if fits_leaf && cut.is_none_or(|cut| !pays(&cut, extent)) {
         return None;
     }
     Some(part_by(items, extent, cut))

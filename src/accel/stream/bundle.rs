@@ -6,11 +6,12 @@
 //! - a bundle that meets many primitives is given up: its rays are too far apart for the size of the primitives, and the
 //!   packets go on from what they have found.
 
-use super::frustum::{Boxes, Frustum};
+use super::frustum::{Apex, Boxes, Frustum};
 use crate::accel::Accel;
 use crate::accel::block::RaysByPrimitive;
 use crate::accel::descend::descend;
-use crate::accel::leaf::{BlockVisitor, TestRays, Testable, with_block};
+use crate::accel::instance::TreeRoot;
+use crate::accel::leaf::{BlockVisitor, PreparedRays, TestRays, Testable, with_block};
 use crate::accel::node::ChildRef;
 use crate::accel::query::Query;
 use crate::accel::{packet, single};
@@ -20,15 +21,17 @@ use crate::math::WIDTH;
 /// Primitives met by the pyramid after which a bundle is given up: two a ray.
 const BUDGET: usize = 2 * WIDTH * WIDTH;
 
+/// Packets prepared when first tested: many meet nothing.
+pub(super) type Prepared<T> = [Option<TestRays<T>>; WIDTH];
+
 /// Packets of a bundle with what they ask.
 pub(super) struct Bundle<'a, T: Tier, Q> {
-    pub(super) frustum: Frustum,
-    pub(super) rays: &'a [RayLanes<T::Wide>],
-    /// Prepared when first tested: many packets meet nothing.
-    pub(super) prepared: &'a mut [Option<TestRays<T>>; WIDTH],
-    pub(super) queries: &'a mut [Q],
+    frustum: Frustum,
+    rays: &'a [RayLanes<T::Wide>],
+    prepared: &'a mut Prepared<T>,
+    queries: &'a mut [Q],
     /// Primitives that the pyramid met.
-    pub(super) met: usize,
+    met: usize,
 }
 
 /// Stacks of a worker, empty between calls.
@@ -37,26 +40,45 @@ pub(super) struct Stacks<'a> {
     pub(super) packet: &'a mut Vec<packet::Entry>,
 }
 
-impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
+impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
+    /// The bundle of some rays; `None` where they do not make one.
+    pub(super) fn new(
+        rays: &'a [RayLanes<T::Wide>],
+        apex: Apex,
+        tree: TreeRoot,
+        prepared: &'a mut Prepared<T>,
+        queries: &'a mut [Q],
+    ) -> Option<Self> {
+        let mut frustum = Frustum::around::<T>(rays, apex, tree)?;
+        for (j, query) in queries.iter().enumerate() {
+            frustum.look(j, T::above_f32(query.limit()));
+        }
+        frustum.update_reach();
+        prepared.iter_mut().for_each(|prepared| *prepared = None);
+        Some(Self { frustum, rays, prepared, queries, met: 0 })
+    }
+
     /// Puts everything below `root` to the queries that their rays may hit; false if given up.
-    pub(super) fn descend(&mut self, accel: &Accel, root: u32, stacks: Stacks) -> bool {
-        let stack = stacks.bundle;
-        stack.push(single::Entry::new(f32::NEG_INFINITY, ChildRef::node(root)));
-        while let Some(entry) = stack.pop() {
+    pub(super) fn descend(&mut self, accel: &Accel, root: u32, stacks: &mut Stacks) -> bool {
+        let base = stacks.bundle.len();
+        stacks.bundle.push(single::Entry::new(f32::NEG_INFINITY, ChildRef::node(root)));
+        while stacks.bundle.len() > base
+            && let Some(entry) = stacks.bundle.pop()
+        {
             let child = entry.child;
             if entry.near > self.frustum.reach {
                 continue;
             }
             if child.is_node() {
-                self.push_children(accel, child, stack);
+                self.push_children(accel, child, stacks.bundle);
             } else if child.kind() == Accel::INSTANCE {
-                self.visit_instances(accel, child, stacks.packet);
+                self.visit_instance(accel, child, stacks);
             } else {
                 with_block(accel, child, self);
-                if self.met > BUDGET {
-                    stack.clear();
-                    return false;
-                }
+            }
+            if self.met > BUDGET {
+                stacks.bundle.truncate(base);
+                return false;
             }
         }
         true
@@ -74,12 +96,28 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         }
     }
 
+    /// Goes through an instance: with the pyramid of its rays in there, or else packet by packet.
     #[inline(never)]
-    fn visit_instances(&mut self, accel: &Accel, leaf: ChildRef, stack: &mut Vec<packet::Entry>) {
-        for (j, (rays, query)) in self.rays.iter().zip(&mut *self.queries).enumerate() {
-            accel.visit_instances::<T, Q>(leaf, rays, query, |root, local, query| {
-                descend::<T, RaysByPrimitive, Q>(accel, root, local, query, stack)
-            });
+    fn visit_instance(&mut self, accel: &Accel, leaf: ChildRef, stacks: &mut Stacks) {
+        let placed = accel.placed(leaf);
+        let (root, count) = (placed.tree.node, self.rays.len());
+        let local: [RayLanes<T::Wide>; WIDTH] =
+            std::array::from_fn(|j| Accel::local_rays(&placed.to_world, &self.rays[j.min(count - 1)]));
+        let (rays, apex) = (&local[..count], self.frustum.apex().in_space_of(&placed.to_world));
+        self.queries.iter_mut().for_each(|query| query.enter_instance(placed.row + 1));
+        let mut prepared = [const { None }; WIDTH];
+        let inside = Bundle::<T, Q>::new(rays, apex, placed.tree, &mut prepared, self.queries);
+        let done = inside.is_some_and(|mut inside| {
+            let done = inside.descend(accel, root, stacks);
+            self.met += inside.met;
+            done
+        });
+        for (j, query) in self.queries.iter_mut().enumerate() {
+            if !done {
+                let rays = PreparedRays::new(local[j], placed.tree);
+                let _ = descend::<T, RaysByPrimitive, Q>(accel, root, &rays, query, stacks.packet);
+            }
+            query.enter_instance(0);
             self.frustum.look(j, T::above_f32(query.limit()));
         }
         self.frustum.update_reach();

@@ -7,7 +7,8 @@
 //! - the *leaf pass* tests the leaves that have gathered;
 //! - the *refill* hands out answers and starts waiting rays.
 //!
-//! Each ray visits what it would visit alone, in the same order. Trees with instances are not for this way.
+//! Each ray visits what it would visit alone, in the same order. On its way into an instance it leaves a note on its stack
+//! that brings it back out.
 
 use wide::{f32x8, u32x8};
 
@@ -15,6 +16,7 @@ use super::Answers;
 use super::columns::RayColumns;
 use crate::accel::Accel;
 use crate::accel::block::{Block, PrimitivesByRay};
+use crate::accel::instance::TreeRoot;
 use crate::accel::leaf::{BlockVisitor, TestRays, Testable, with_block};
 use crate::accel::node::{ChildRef, Node8};
 use crate::accel::order::far_first;
@@ -23,7 +25,7 @@ use crate::accel::traversal::ask_planes;
 use crate::accel::unchecked::{self, Slots, Stacks};
 use crate::intersect::aabb::CullRay;
 use crate::intersect::{LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, three};
+use crate::math::{Lane, Mask, Vec3, WIDTH, three};
 
 /// Rays under way.
 const SLOTS: usize = 48;
@@ -35,6 +37,9 @@ const LEAVES: usize = 24;
 const FEW: usize = 12;
 /// Rays that are done before others start in their place.
 const DONE: usize = 8;
+
+/// What lies on the stack below what a ray visits in the space of an instance.
+const LEAVE: ChildRef = ChildRef::leaf(ChildRef::LAST_KIND, 0);
 
 /// A ray under way; what the node pass needs stands first, in one cache line.
 #[repr(C, align(64))]
@@ -96,7 +101,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         loop {
             self.node_pass(accel);
             if self.in_leaves.len() >= LEAVES || self.in_nodes.len() < FEW {
-                self.leaf_pass(accel);
+                self.leaf_pass(accel, rays);
             }
             if self.done.len() >= DONE || self.in_nodes.len() == 0 {
                 self.refill(accel, rays, &mut waiting, answers);
@@ -142,7 +147,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
 
     /// Tests the leaves that have gathered: first all for lanes that may be hit, then those lanes.
     #[inline(always)]
-    fn leaf_pass(&mut self, accel: &Accel) {
+    fn leaf_pass(&mut self, accel: &Accel, rays: &RayColumns<T::Real>) {
         self.candidates.clear();
         for i in 0..self.in_leaves.len() {
             let at = self.in_leaves.get(i);
@@ -153,7 +158,10 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         for i in 0..self.candidates.len() {
             let at = self.candidates.get(i);
             let slot = &mut self.slots[at];
-            if slot.test_candidates(accel) {
+            // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
+            if slot.next.kind() >= Accel::INSTANCE {
+                self.change_space(accel, rays, at);
+            } else if slot.test_candidates(accel) {
                 slot.limit = T::above_f32(T::Wide::splat(slot.query.limit())).get(0);
                 let top = slot.top as usize;
                 let kept =
@@ -167,6 +175,25 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             let at = self.in_leaves.get(i);
             let top = self.slots[at].top as usize;
             self.go_on(at, top - 1, accel);
+        }
+    }
+
+    /// Takes a ray into the space of an instance, or back.
+    #[inline(never)]
+    fn change_space(&mut self, accel: &Accel, rays: &RayColumns<T::Real>, at: usize) {
+        let slot = &mut self.slots[at];
+        if slot.next == LEAVE {
+            slot.aim(rays.get(slot.row as usize), accel.world);
+            slot.query.enter_instance(0);
+        } else if slot.next.kind() == Accel::INSTANCE {
+            let placed = accel.placed(slot.next);
+            slot.aim(Accel::local_rays(&placed.to_world, &slot.ray), placed.tree);
+            slot.query.enter_instance(placed.row + 1);
+            let mut below = [LEAVE.bits(); WIDTH];
+            below[1] = ChildRef::node(placed.tree.node).bits();
+            let anywhere = f32x8::splat(f32::NEG_INFINITY);
+            self.stacks.write(at, slot.top as usize, u32x8::new(below), anywhere);
+            slot.top += 2;
         }
     }
 
@@ -201,13 +228,9 @@ impl<T: Tier, Q: Query<T::Real>> Slot<T, Q> {
         let ray = rays.get(row as usize);
         let mut query = ask(&ray);
         ask_planes(accel, &ray, &mut query);
-        let narrow = |x: T::Real| T::nearest_f32(T::Wide::splat(x)).get(0);
-        let narrow3 = |v: Vec3<T::Real>| Vec3::new(narrow(v.x), narrow(v.y), narrow(v.z));
-        let origin = narrow3(ray.origin);
-        let cull = CullRay::new(origin, narrow3(ray.direction), accel.world.scale_for(origin));
-        let backward = cull.backward();
+        let cull = cull_ray::<T>(&ray, accel.world);
         Self {
-            octant: three(|k| u32::from(backward[k]) << k).into_iter().sum(),
+            octant: octant(&cull),
             cull,
             t_min: T::below_f32(T::Wide::splat(ray.t_min)).get(0),
             limit: T::above_f32(T::Wide::splat(query.limit())).get(0),
@@ -219,6 +242,14 @@ impl<T: Tier, Q: Query<T::Real>> Slot<T, Q> {
             ray,
             query,
         }
+    }
+
+    /// Turns to another space.
+    fn aim(&mut self, ray: RayLanes<T::Real>, tree: TreeRoot) {
+        self.cull = cull_ray::<T>(&ray, tree);
+        self.octant = octant(&self.cull);
+        self.triangle = T::Triangle::prepare_one(&ray);
+        self.ray = ray;
     }
 
     /// Where the ray enters the children of a node, and which of them it meets.
@@ -248,9 +279,8 @@ impl<T: Tier, Q: Query<T::Real>> Slot<T, Q> {
     #[inline(always)]
     fn test_candidates(&mut self, accel: &Accel) -> bool {
         if self.next.kind() != PrimKind::Triangle as u8 {
-            // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
             let next = self.next;
-            return !next.is_empty() && with_block(accel, next, self);
+            return with_block(accel, next, self);
         }
         let block = unchecked::triangles(accel, self.next);
         let (mut left, mut accepted) = (self.candidates, false);
@@ -263,6 +293,18 @@ impl<T: Tier, Q: Query<T::Real>> Slot<T, Q> {
         }
         accepted
     }
+}
+
+fn cull_ray<T: Tier>(ray: &RayLanes<T::Real>, tree: TreeRoot) -> CullRay<f32> {
+    let narrow = |x: T::Real| T::nearest_f32(T::Wide::splat(x)).get(0);
+    let narrow3 = |v: Vec3<T::Real>| Vec3::new(narrow(v.x), narrow(v.y), narrow(v.z));
+    let origin = narrow3(ray.origin);
+    CullRay::new(origin, narrow3(ray.direction), tree.scale_for(origin))
+}
+
+fn octant(cull: &CullRay<f32>) -> u32 {
+    let backward = cull.backward();
+    three(|k| u32::from(backward[k]) << k).into_iter().sum()
 }
 
 /// Leaves of anything but triangles: eight at once.

@@ -15,7 +15,7 @@ use wide::f32x8;
 use crate::accel::instance::TreeRoot;
 use crate::accel::node::Node8;
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH, fused_cross, three};
+use crate::math::{Lane, Mask, Real, Transform, Vec3, WIDTH, fused_cross, three};
 
 /// What rays of a stream have in common. It changes time, never results: rays that it is not true of go another way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -24,6 +24,17 @@ pub enum Apex {
     Origin([f32; 3]),
     /// All pass through here, up to rounding, at or beyond their `t_max`.
     Target([f32; 3]),
+}
+
+impl Apex {
+    /// The same point, in the space of an instance.
+    pub(super) fn in_space_of(self, to_world: &Transform) -> Self {
+        let inside = |p: [f32; 3]| to_world.inverted().point(p.map(f64::from)).map(|x| x as f32);
+        match self {
+            Self::Origin(p) => Self::Origin(inside(p)),
+            Self::Target(p) => Self::Target(inside(p)),
+        }
+    }
 }
 
 /// Largest slope: beyond it rays go too far apart, or along another axis.
@@ -166,6 +177,12 @@ impl Frustum {
             return None;
         }
         Self { view, is_target, along, ..Self::with(packets, 2.0 * size) }.oriented()
+    }
+
+    /// What the rays have in common.
+    pub(super) fn apex(&self) -> Apex {
+        let point = self.view.apex;
+        if self.is_target { Apex::Target(point) } else { Apex::Origin(point) }
     }
 
     /// The pyramid of some slopes, in a scene of some size.

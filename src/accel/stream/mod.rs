@@ -1,7 +1,7 @@
 //! Many rays at a time: columns of rays in, columns of hits out, each ray by the way that suits it.
 //!
 //! 1. Rays with a common point, eight packets at a time: `bundle`, behind the pyramid of `frustum`.
-//! 2. Packets whose rays go into one octant: together, see [`super::packet`].
+//! 2. Packets whose rays visit much the same: together, see [`super::packet`].
 //! 3. All others: one by one, many at a time.
 //!
 //! Which way a ray takes changes no result.
@@ -12,14 +12,12 @@ mod flight;
 mod frustum;
 
 use super::Accel;
-use super::leaf::TestRays;
 use super::query::{AnyHit, Closest, Query};
 use super::traversal::{Hint, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Vec3, WIDTH};
-use bundle::{Bundle, Stacks};
+use bundle::{Bundle, Prepared, Stacks};
 use flight::Flight;
-use frustum::Frustum;
 
 pub use columns::{Bound, HitColumns, RayColumns};
 pub use frustum::Apex;
@@ -187,7 +185,7 @@ struct Bundles<'a, T: Tier> {
     accel: &'a Accel,
     traversal: Traversal<'a>,
     rays: Box<[RayLanes<T::Wide>; BUNDLE]>,
-    prepared: Box<[Option<TestRays<T>>; BUNDLE]>,
+    prepared: Box<Prepared<T>>,
     /// Bundles to come that are not tried.
     rest: usize,
 }
@@ -237,11 +235,11 @@ impl<'a, T: Tier> Bundles<'a, T> {
 
     /// False if the rays of a packet had better go alone.
     fn trace_packet<Q: Query<T::Wide>>(&mut self, j: usize, hint: Hint, query: &mut Q) -> bool {
-        if self.accel.instances.is_empty() && !self.traversal.together::<T>(&self.rays[j], hint) {
-            return false;
+        let together = self.traversal.together::<T, Q>(&self.rays[j], hint);
+        if together {
+            self.traversal.ask_together::<T, _>(&self.rays[j], query);
         }
-        self.traversal.ask_tree::<T, _>(&self.rays[j], hint, query);
-        true
+        together
     }
 
     /// False if the packets do not make a bundle, or not a good one.
@@ -251,19 +249,13 @@ impl<'a, T: Tier> Bundles<'a, T> {
             self.rest -= 1;
             return false;
         }
-        let Some(mut frustum) = Frustum::around::<T>(&self.rays[..queries.len()], apex, world) else {
+        let rays = &self.rays[..queries.len()];
+        let Some(mut bundle) = Bundle::new(rays, apex, world, &mut self.prepared, queries) else {
             return false;
         };
-        for (j, query) in queries.iter().enumerate() {
-            frustum.look(j, T::above_f32(query.limit()));
-        }
-        frustum.update_reach();
-        self.prepared.fill(None);
-        let stacks =
+        let mut stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
-        let rays = &self.rays[..queries.len()];
-        let mut bundle = Bundle { frustum, rays, prepared: &mut self.prepared, queries, met: 0 };
-        let done = bundle.descend(self.accel, world.node, stacks);
+        let done = bundle.descend(self.accel, world.node, &mut stacks);
         self.rest = if done { 0 } else { REST };
         done
     }
