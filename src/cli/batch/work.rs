@@ -92,9 +92,17 @@ impl Batch<'_> {
     }
 }
 
+/// Most failures that the last message repeats: each was told when it happened.
+const MOST_LISTED: usize = 20;
+
 fn failed(failures: &[Failure], units: u64) -> String {
-    let lines = failures.iter().map(|failure| format!("\n  {}: {}", failure.picture, failure.error));
-    format!("{} of {units} units failed:{}", failures.len(), lines.collect::<String>())
+    let line = |failure: &Failure| format!("\n  {}: {}", failure.picture, failure.error);
+    let lines: String = failures.iter().take(MOST_LISTED).map(line).collect();
+    let more = match failures.len().saturating_sub(MOST_LISTED) {
+        0 => String::new(),
+        more => format!("\n  and {more} more"),
+    };
+    format!("{} of {units} units failed:{lines}{more}", failures.len())
 }
 
 /// A reporter as a batch sees it.
@@ -116,5 +124,21 @@ impl Watch for Told<'_> {
 
     fn unit_failed(&self, failure: &Failure) {
         self.0.unit_failed(failure);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn long_lists_of_failures_end() {
+        let failure = |unit| Failure { unit, picture: format!("frame {unit}"), error: "no".into() };
+        let text = failed(&(0..23).map(failure).collect::<Vec<_>>(), 40);
+        assert!(
+            text.starts_with("23 of 40 units failed:\n  frame 0: no\n") && text.ends_with("and 3 more"),
+            "{text}"
+        );
+        assert!(!failed(&[failure(1)], 2).contains("more"));
     }
 }
