@@ -89,6 +89,7 @@
 //! | [`film`] | samples into pixels, in an order that no thread can change |
 //! | [`output`] | films into PNG, PPM, EXR, PFM |
 //! | [`math`] | the lanes that all of it is written over |
+//! | [`batch`] | job files into many pictures, resumable and in shards |
 //! | [`measure`] | scenes into rays a second, hard rays into errors, pictures into differences, settings into costs |
 //! | [`cli`] | arguments into all of the above |
 //!
@@ -111,6 +112,7 @@
 #![warn(missing_docs)]
 
 pub mod accel;
+pub mod batch;
 pub mod cli;
 pub mod describe;
 pub mod film;

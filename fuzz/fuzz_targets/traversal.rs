@@ -94,7 +94,7 @@ fn geometry(input: &Input) -> Geometry {
     let place = |rows: &[[Number; 4]; 3]| {
         let rows = rows.map(|row| row.map(|x| f64::from(x.value())));
         let to_world = Transform::from_rows(rows).ok().filter(|t| t.determinant().abs() > 1e-2)?;
-        Some(Instance { group: 1, to_world, material: NO_MATERIAL })
+        Some(Instance { group: 1, to_world, material: NO_MATERIAL, object: 1 })
     };
     if !input.shown.is_empty() {
         g.instances = input.instances.iter().filter_map(place).collect();

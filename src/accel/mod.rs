@@ -37,7 +37,7 @@ pub use refit::RefitError;
 pub use traversal::{Hint, Traversal};
 
 /// Trees of all groups of a scene, and their leaves, packed.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Accel {
     nodes: Vec<Node8>,
     triangles: Vec<TriangleBlock>,

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use clap::{Parser, Subcommand, ValueEnum, ValueHint};
 
+use super::batch::{BatchArgs, MergeArgs, PlanArgs, RunArgs, StatusArgs};
 use super::bench::BenchArgs;
 use super::compare::CompareArgs;
 use super::goal::GoalArgs;
@@ -12,6 +13,7 @@ use super::simd;
 use super::source::SceneSource;
 use super::tradeoff::TradeoffArgs;
 use super::verify::VerifyArgs;
+use crate::film::Aov;
 use crate::intersect::TierName;
 use crate::output::Format;
 
@@ -20,9 +22,10 @@ Exit codes:
   0  done
   1  failed while running (files, memory, interrupted)
   2  wrong use
-  3  bad scene or asset
+  3  bad scene or asset, damaged or changed files, incomplete work (octray merge)
   4  beyond a limit: slower than the baseline (octray bench), a documented bound broken (octray verify),
      pictures that differ by too much (octray compare)
+  75 stopped by a signal; the same command goes on from there (octray run, octray batch)
 
 Data goes to standard output, everything else to standard error. NO_COLOR is honoured.";
 
@@ -40,6 +43,16 @@ pub struct Args {
 pub enum Verb {
     /// Render a scene to a picture
     Render(Box<RenderArgs>),
+    /// Render all pictures of a job file here, or those that are not done yet
+    Batch(Box<BatchArgs>),
+    /// Cut the pictures of a job file into units and shards, for `octray run`
+    Plan(Box<PlanArgs>),
+    /// Render the units of a plan, or those of one shard, that are not done yet
+    Run(Box<RunArgs>),
+    /// Check that all units of a plan are there, and put pictures together
+    Merge(MergeArgs),
+    /// Say how much of a plan is done
+    Status(StatusArgs),
     /// Show what a scene holds and which stages it needs
     Inspect(InspectArgs),
     /// Measure rays a second
@@ -115,6 +128,9 @@ pub struct RenderArgs {
     /// How much work goes into building the tree; the picture stays the same
     #[arg(long, value_name = "HOW")]
     pub build_quality: Option<BuildQuality>,
+    /// Values beside colour for an EXR picture, such as depth,object_id; a file with the camera's numbers is written beside it
+    #[arg(long, value_name = "NAMES", value_delimiter = ',', value_parser = PossibleValuesParser::new(Aov::NAMES))]
+    pub aovs: Vec<String>,
     /// Render only this part of the picture: left, top, width, height in pixels
     #[arg(long, value_name = "X,Y,W,H", value_parser = parse_crop)]
     pub crop: Option<[u32; 4]>,
@@ -225,6 +241,7 @@ impl RenderArgs {
             ("render.seed", self.seed.map(|seed| seed.to_string())),
             ("render.tier", tier.map(|tier| format!("\"{}\"", tier.get_name()))),
             ("render.build_quality", self.build_quality.and_then(BuildQuality::assignment)),
+            ("render.aovs", (!self.aovs.is_empty()).then(|| format!("{:?}", self.aovs))),
         ];
         let given = flags.into_iter().filter_map(|(key, value)| Some((key.to_owned(), value?)));
         self.goal

@@ -6,8 +6,9 @@ use std::path::{Path, PathBuf};
 
 use super::args::RenderArgs;
 use super::error::{CliError, Exit};
-use crate::film::{Film, Tone};
+use crate::film::{Aov, AovSet, Film, Tone};
 use crate::output::{self, Format, Written};
+use crate::scene::Scene;
 
 /// Where a picture goes and in which format.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -42,6 +43,16 @@ impl Destination {
         }
     }
 
+    /// Fails if the format has no place for values beside colour that are asked for.
+    pub(super) fn check_aovs(&self, aovs: AovSet) -> Result<(), CliError> {
+        if aovs.is_empty() || self.format == Format::Exr {
+            return Ok(());
+        }
+        let names: Vec<&str> = aovs.iter().map(Aov::name).collect();
+        let what = format!("{self}: {} cannot hold {}: use exr", self.format, names.join(", "));
+        Err(CliError::new(Exit::Usage, what))
+    }
+
     /// Whether writing may wait for a reader, unlike writing a regular file.
     pub(super) fn may_block(&self) -> bool {
         let is_special = |path: &PathBuf| std::fs::metadata(path).is_ok_and(|found| !found.is_file());
@@ -54,6 +65,15 @@ impl Destination {
             Some(path) => output::write_file(path, film, self.format, tone)?,
             None => output::write_stdout(film, self.format, tone)?,
         })
+    }
+
+    /// Writes the camera's numbers beside a picture with values that need them; beside standard output is no place.
+    pub(super) fn write_camera(&self, scene: &Scene, crop: Option<[u32; 4]>) -> Result<(), CliError> {
+        let Some(path) = self.path.as_ref().filter(|_| !scene.settings.aovs.is_empty()) else {
+            return Ok(());
+        };
+        let camera = output::camera_json(&scene.camera, scene.settings.size, crop);
+        Ok(output::write_atomically(&output::camera_path(path), format!("{camera:#}\n").as_bytes())?)
     }
 }
 

@@ -5,6 +5,7 @@ use std::fmt;
 use std::process::ExitCode;
 
 use super::stdio::say;
+use crate::batch::BatchError;
 use crate::output::OutputError;
 
 /// Why the program ends without success, as its exit code.
@@ -14,10 +15,12 @@ pub enum Exit {
     Failed = 1,
     /// Wrong use of the command line.
     Usage = 2,
-    /// A bad scene or asset.
+    /// A bad scene or asset, a damaged or changed file, or something incomplete.
     Scene = 3,
     /// Beyond a limit: slower than the baseline, a documented bound broken, pictures that differ by too much.
     Regression = 4,
+    /// Stopped by a signal; the same command goes on from there.
+    Stopped = 75,
 }
 
 /// Why a verb failed.
@@ -80,6 +83,21 @@ impl fmt::Display for CliError {
 }
 
 impl Error for CliError {}
+
+impl From<BatchError> for CliError {
+    fn from(error: BatchError) -> Self {
+        let exit = match error {
+            BatchError::Output(error) => return error.into(),
+            BatchError::Shard(_) => Exit::Usage,
+            BatchError::Render(_) => Exit::Failed,
+            BatchError::Read { ref cause, .. } if cause.kind() != std::io::ErrorKind::NotFound => {
+                Exit::Failed
+            }
+            _ => Exit::Scene,
+        };
+        Self::of(exit, error)
+    }
+}
 
 impl From<OutputError> for CliError {
     fn from(error: OutputError) -> Self {

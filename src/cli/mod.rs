@@ -1,9 +1,10 @@
 //! The command line: one file a verb, and what the verbs share.
 //!
 //! Data goes to standard output, everything else to standard error. Exit codes: 0 done, 1 failed while running,
-//! 2 wrong use, 3 bad scene or asset, 4 beyond a limit: slower than the baseline, a documented bound is broken, or pictures that differ by too much.
+//! 2 wrong use, 3 bad scene or asset, 75 stopped by a signal, 4 beyond a limit: slower than the baseline, a documented bound is broken, or pictures that differ by too much.
 
 mod args;
+pub mod batch;
 pub mod bench;
 pub mod compare;
 pub mod completions;
@@ -12,6 +13,7 @@ mod error;
 mod goal;
 mod human;
 pub mod inspect;
+mod log;
 pub mod man;
 mod memory;
 mod pipeline;

@@ -13,7 +13,8 @@ use super::error::CliError;
 use super::pipeline::Progress;
 use super::rhythm::{Rhythm, millionths, speed, time_left};
 use super::stdio::say;
-use super::summary::Summary;
+use super::summary::Ending;
+use crate::batch::run::Failure;
 
 /// Tells the user how a render goes. All threads may call it.
 pub(super) struct Reporter {
@@ -23,6 +24,8 @@ pub(super) struct Reporter {
     rhythm: Mutex<Rhythm>,
     /// Share of the picture done, in millionths.
     done_millionths: AtomicU64,
+    /// Units done and in all, where there is more than one picture.
+    units: [AtomicU64; 2],
     ended: AtomicBool,
 }
 
@@ -43,6 +46,7 @@ impl Reporter {
             quiet,
             begun: OnceLock::new(),
             done_millionths: AtomicU64::new(0),
+            units: Default::default(),
             ended: AtomicBool::new(false),
         }
     }
@@ -59,6 +63,30 @@ impl Reporter {
     /// Starts the clock of the render.
     pub(super) fn begin(&self) {
         self.begun.get_or_init(Instant::now);
+    }
+
+    /// Says how many units there are to do.
+    pub(super) fn count(&self, units: u64) {
+        self.units[1].store(units, Relaxed);
+    }
+
+    /// One unit more is done.
+    pub(super) fn counted(&self) {
+        self.units[0].fetch_add(1, Relaxed);
+    }
+
+    /// A unit has failed, and others go on.
+    pub(super) fn unit_failed(&self, failure: &Failure) {
+        let Failure { unit, picture, error } = failure;
+        match &self.style {
+            Style::Json => {
+                let event =
+                    json!({ "event": "unit_failed", "unit": unit, "picture": picture, "error": error });
+                say(&event.to_string());
+            }
+            Style::Bar(bar) => bar.suspend(|| say(&format!("failed: {picture}: {error}"))),
+            _ => say(&format!("failed: {picture}: {error}")),
+        }
     }
 
     /// Time since the render began.
@@ -84,7 +112,7 @@ impl Reporter {
     }
 
     /// Ends the render well: the summary, or the event `done`.
-    pub(super) fn done(&self, summary: &Summary) {
+    pub(super) fn done(&self, summary: &dyn Ending) {
         if !self.end() {
             return;
         }
@@ -113,16 +141,28 @@ impl Reporter {
     }
 
     fn show(&self, progress: &Progress, elapsed: Duration) {
+        let [done, units] = self.units.each_ref().map(|count| count.load(Relaxed));
+        let speed = match units {
+            0 => speed(progress, elapsed),
+            units => format!("{done} of {units} units, {}", speed(progress, elapsed)),
+        };
         match &self.style {
             Style::Bar(bar) => {
                 bar.set_length(progress.pixels_total);
-                bar.set_message(speed(progress, elapsed));
+                bar.set_message(speed);
                 bar.set_position(progress.pixels_done);
             }
             Style::Plain => {
-                say(&format!("{:>3} %, {}", millionths(progress) / 10_000, speed(progress, elapsed)));
+                say(&format!("{:>3} %, {speed}", millionths(progress) / 10_000));
             }
-            Style::Json => say(&progress_event(progress, elapsed).to_string()),
+            Style::Json => {
+                let mut event = progress_event(progress, elapsed);
+                if units > 0 {
+                    event["units_done"] = done.into();
+                    event["units_total"] = units.into();
+                }
+                say(&event.to_string());
+            }
             Style::Silent => {}
         }
     }

@@ -34,8 +34,11 @@ fn picture(args: &RenderArgs, reporter: &Arc<Reporter>) -> Result<Summary, CliEr
     }
     let interrupt = Interrupt::install(end_at_once(reporter, &destination))?;
     let scene = pipeline::open(&args.scene.scene, &args.assignments(), usize::from(args.threads))?;
+    destination.check_aovs(scene.scene.settings.aovs)?;
     let (film, report) = render(args, &scene, reporter, &interrupt, &destination)?;
-    write(&scene, &film, report, &interrupt, &destination)
+    let summary = write(&scene, &film, report, &interrupt, &destination)?;
+    destination.write_camera(&scene.scene, args.crop)?;
+    Ok(summary)
 }
 
 fn render(

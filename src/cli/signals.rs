@@ -1,4 +1,4 @@
-//! Ctrl-C and SIGTERM: the first stops the work in an orderly way, the second at once.
+//! Ctrl-C, SIGTERM and SIGUSR1: the first stops the work in an orderly way, the second at once.
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
@@ -15,9 +15,19 @@ impl Interrupt {
     /// Listens to signals from now on. As long as they are not deferred, the first one ends the program with the error
     /// that `end` gives.
     pub(super) fn install(end: impl Fn() -> CliError + Send + 'static) -> Result<Self, CliError> {
+        Self::with_patience(end, false)
+    }
+
+    /// As [`Interrupt::install`], but while signals are deferred only a second Ctrl-C ends the program: schedulers send one
+    /// signal after the other.
+    pub(super) fn install_patient(end: impl Fn() -> CliError + Send + 'static) -> Result<Self, CliError> {
+        Self::with_patience(end, true)
+    }
+
+    fn with_patience(end: impl Fn() -> CliError + Send + 'static, patient: bool) -> Result<Self, CliError> {
         let interrupt = Self { asked: Arc::default(), deferred: Arc::default() };
         interrupt
-            .listen(end)
+            .listen(end, patient)
             .map_err(|error| CliError::new(Exit::Failed, "cannot listen to signals").because(error))?;
         Ok(interrupt)
     }
@@ -33,13 +43,13 @@ impl Interrupt {
     }
 
     #[cfg(unix)]
-    fn listen(&self, end: impl Fn() -> CliError + Send + 'static) -> std::io::Result<()> {
-        use signal_hook::consts::{SIGINT, SIGTERM};
-        let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM])?;
+    fn listen(&self, end: impl Fn() -> CliError + Send + 'static, patient: bool) -> std::io::Result<()> {
+        use signal_hook::consts::{SIGINT, SIGTERM, SIGUSR1};
+        let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGUSR1])?;
         let (asked, deferred) = (Arc::clone(&self.asked), Arc::clone(&self.deferred));
         let watch = move || {
-            for _ in signals.forever() {
-                let is_second = asked.swap(true, SeqCst);
+            for signal in signals.forever() {
+                let is_second = asked.swap(true, SeqCst) && (!patient || signal == SIGINT);
                 if is_second || !deferred.load(SeqCst) {
                     super::error::end_program(&end());
                 }
@@ -50,7 +60,7 @@ impl Interrupt {
 
     /// Without signals to wait for: the first sets the flag, the second ends the program.
     #[cfg(not(unix))]
-    fn listen(&self, _end: impl Fn() -> CliError + Send + 'static) -> std::io::Result<()> {
+    fn listen(&self, _end: impl Fn() -> CliError + Send + 'static, _patient: bool) -> std::io::Result<()> {
         use signal_hook::consts::{SIGINT, SIGTERM};
         for signal in [SIGINT, SIGTERM] {
             signal_hook::flag::register_conditional_shutdown(

@@ -10,6 +10,12 @@ use super::pipeline::{Reached, RenderReport};
 use super::simd;
 use crate::output::Written;
 
+/// How work ended well.
+pub(super) trait Ending: fmt::Display {
+    /// The event `done`.
+    fn to_json(&self) -> Value;
+}
+
 /// What a render did.
 pub(super) struct Summary {
     /// The scene's name.
@@ -34,9 +40,8 @@ pub(super) struct Summary {
     pub(super) peak_memory_bytes: Option<u64>,
 }
 
-impl Summary {
-    /// The event `done`.
-    pub(super) fn to_json(&self) -> Value {
+impl Ending for Summary {
+    fn to_json(&self) -> Value {
         let (report, rays) = (&self.report, &self.report.rays);
         json!({
             "event": "done",
@@ -70,7 +75,9 @@ impl Summary {
             "size_bytes": self.written.size_bytes,
         })
     }
+}
 
+impl Summary {
     fn rays(&self) -> u64 {
         let rays = &self.report.rays;
         rays.camera + rays.shadow + rays.reflected + rays.refracted + rays.diffuse

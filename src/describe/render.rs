@@ -1,5 +1,6 @@
 //! How the picture is computed: size, samples, filter, tone.
 
+use crate::film::Aov;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -30,6 +31,10 @@ pub struct Render {
     pub tone: Tone,
     /// Paths whose weight falls below this in every channel end. Default 1/1024, a quarter of a step of 8 bits.
     pub min_throughput: f64,
+    /// Values beside colour, for EXR pictures: `depth`, `position`, `geometric_normal`, `shading_normal`, `uv`, `object_id`,
+    /// `primitive_id`, `material_id`, `albedo`, `hit`, `sample_count`. Default none.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub aovs: Vec<Aov>,
 }
 
 /// Which arithmetic decides a hit.
@@ -129,6 +134,7 @@ impl Default for Render {
             exposure: 0.0,
             tone: Tone::default(),
             min_throughput: 1.0 / 1024.0,
+            aovs: Vec::new(),
         }
     }
 }

@@ -1,7 +1,8 @@
 //! The whole scene file.
 
 use super::{
-    Background, Camera, Cylinder, Instance, Lights, Material, Mesh, Plane, Quad, Render, Sphere, Triangle,
+    Background, Camera, Cylinder, Instance, Lights, Material, Mesh, Plane, Quad, Render, Sphere, Transform,
+    Triangle,
 };
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -126,6 +127,24 @@ impl SceneDescription {
             group: Vec::new(),
             instance: Vec::new(),
             folder: PathBuf::new(),
+        }
+    }
+
+    /// Takes all transforms of objects away.
+    pub(crate) fn forget_transforms(&mut self) {
+        let lists =
+            |s: &mut [Sphere], c: &mut [Cylinder], t: &mut [Triangle], q: &mut [Quad], m: &mut [Mesh]| {
+                s.iter_mut().for_each(|sphere| sphere.transform = Transform::default());
+                c.iter_mut().for_each(|cylinder| cylinder.transform = Transform::default());
+                t.iter_mut().for_each(|triangle| triangle.transform = Transform::default());
+                q.iter_mut().for_each(|quad| quad.transform = Transform::default());
+                m.iter_mut().for_each(|mesh| mesh.transform = Transform::default());
+            };
+        lists(&mut self.sphere, &mut self.cylinder, &mut self.triangle, &mut self.quad, &mut self.mesh);
+        self.instance.iter_mut().for_each(|instance| instance.transform = Transform::default());
+        for g in &mut self.group {
+            lists(&mut g.sphere, &mut g.cylinder, &mut g.triangle, &mut g.quad, &mut g.mesh);
+            g.instance.iter_mut().for_each(|instance| instance.transform = Transform::default());
         }
     }
 

@@ -125,9 +125,14 @@ impl<const C: usize> BlockTree<C> {
 
     /// The sum of the range: its nodes from the last to the first.
     pub fn total(&self) -> [f32; C] {
-        let sums = self.nodes.iter().rev().map(|node| node.sum);
-        sums.reduce(|later, earlier| plus(earlier, later)).unwrap_or([0.0; C])
+        total(self.nodes.iter().map(|node| node.sum))
     }
+}
+
+/// The sum of a range from the sums of its nodes in order: from the last to the first.
+#[inline(always)]
+pub fn total<const C: usize>(nodes: impl DoubleEndedIterator<Item = [f32; C]>) -> [f32; C] {
+    nodes.rev().reduce(|later, earlier| plus(earlier, later)).unwrap_or([0.0; C])
 }
 
 /// The sum of the samples of one pixel, pushed in sample order; `C` channels, the filter weight as one of them if needed.

@@ -17,12 +17,35 @@ pub struct Film {
 }
 
 /// One named value for each pixel, such as depth.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Plane {
     /// The channel's name in a file, such as `depth.Z`.
     pub name: String,
     /// One value for each pixel, in the order of [`Film::pixels`].
-    pub values: Vec<f32>,
+    pub values: PlaneValues,
+}
+
+/// The values of a plane.
+#[derive(Clone, Debug, PartialEq)]
+pub enum PlaneValues {
+    /// Measures.
+    Float(Vec<f32>),
+    /// Ids and counts.
+    Uint(Vec<u32>),
+}
+
+impl PlaneValues {
+    /// How many there are.
+    pub fn len(&self) -> usize {
+        match self {
+            Self::Float(values) => values.len(),
+            Self::Uint(values) => values.len(),
+        }
+    }
+    /// Whether there are none.
+    pub fn is_empty(&self) -> bool {
+        self.len() == 0
+    }
 }
 
 /// A picture as a screen shows it: 8 bits a channel in the sRGB encoding.
@@ -58,14 +81,23 @@ impl Film {
         self.pixels[y as usize * self.width as usize + x as usize]
     }
 
+    /// The plane of [`super::Aov::SampleCount`], if there is one.
+    pub(crate) fn sample_counts(&mut self) -> Option<&mut [u32]> {
+        let name = super::Aov::SampleCount.channels()[0];
+        match &mut self.planes.iter_mut().find(|plane| plane.name == name)?.values {
+            PlaneValues::Uint(values) => Some(values),
+            PlaneValues::Float(_) => None,
+        }
+    }
+
     /// The rows from the top.
     pub fn rows(&self) -> impl DoubleEndedIterator<Item = &[[f32; 3]]> {
         self.pixels.chunks_exact(self.width.max(1) as usize)
     }
 
     /// The values of the plane of this name.
-    pub fn plane(&self, name: &str) -> Option<&[f32]> {
-        self.planes.iter().find(|plane| plane.name == name).map(|plane| plane.values.as_slice())
+    pub fn plane(&self, name: &str) -> Option<&PlaneValues> {
+        self.planes.iter().find(|plane| plane.name == name).map(|plane| &plane.values)
     }
 }
 
@@ -96,8 +128,8 @@ mod tests {
     #[test]
     fn planes_are_found_by_name() {
         let mut film = Film::new(1, 1);
-        film.planes.push(Plane { name: "depth.Z".into(), values: vec![3.0] });
-        assert_eq!(film.plane("depth.Z"), Some([3.0].as_slice()));
+        film.planes.push(Plane { name: "depth.Z".into(), values: PlaneValues::Uint(vec![3]) });
+        assert_eq!(film.plane("depth.Z"), Some(&PlaneValues::Uint(vec![3])));
         assert_eq!(film.plane("depth"), None);
     }
 }

@@ -83,6 +83,8 @@ pub struct Instance {
     pub to_world: Transform,
     /// Material in place of the primitives' own, or [`NO_MATERIAL`].
     pub material: u32,
+    /// Number of the object in the scene file that puts it here.
+    pub object: u32,
 }
 
 /// All primitives of a scene. Group 0 is the world: the primitives that stand in the scene itself.

@@ -13,6 +13,7 @@
 mod described;
 mod error;
 mod finish;
+mod kept;
 mod mtl;
 mod normals;
 mod obj;
@@ -28,6 +29,7 @@ use std::path::Path;
 
 pub use described::load_described;
 pub use error::LoadError;
+pub use kept::KeptMeshes;
 pub use terrain::terrain;
 pub use texture::{Texture, load_texture, srgb_to_linear};
 

@@ -33,7 +33,7 @@ fn check_shape(film: &Film) -> io::Result<()> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::film::Plane;
+    use crate::film::{Plane, PlaneValues};
     use crate::output::{Picture, decode};
     use proptest::prelude::*;
 
@@ -82,7 +82,7 @@ mod tests {
         let mut misshapen = film(2, 2);
         misshapen.pixels.pop();
         let mut bad_plane = film(2, 2);
-        bad_plane.planes.push(Plane { name: "depth.Z".into(), values: vec![0.0; 3] });
+        bad_plane.planes.push(Plane { name: "depth.Z".into(), values: PlaneValues::Float(vec![0.0; 3]) });
         for bad in [Film::new(0, 0), Film::new(0, 3), misshapen, bad_plane] {
             for format in Format::ALL {
                 let error = encode(&bad, format, Tone::default(), &mut Vec::new()).unwrap_err();

@@ -1,4 +1,4 @@
-//! OpenEXR: 32-bit linear light in the channels R, G, B, and one channel for each plane, through the `exr` crate.
+//! OpenEXR: 32-bit linear light in the channels R, G, B, and one channel (float or uint) for each plane, through the `exr` crate.
 
 use std::io::{self, Cursor, Write};
 
@@ -7,7 +7,7 @@ use exr::prelude::{
     WritableImage, read,
 };
 
-use crate::film::{Film, Plane};
+use crate::film::{Film, Plane, PlaneValues};
 
 const COLOURS: [&str; 3] = ["R", "G", "B"];
 
@@ -46,21 +46,34 @@ fn channels(film: &Film) -> AnyChannels<FlatSamples> {
     let colours = COLOURS.iter().enumerate().map(|(index, &name)| {
         AnyChannel::new(name, FlatSamples::F32(film.pixels.iter().map(|pixel| pixel[index]).collect()))
     });
-    let planes = film
-        .planes
-        .iter()
-        .map(|plane| AnyChannel::new(plane.name.as_str(), FlatSamples::F32(plane.values.clone())));
+    let planes = film.planes.iter().map(|plane| AnyChannel::new(plane.name.as_str(), samples(&plane.values)));
     AnyChannels::sort(colours.chain(planes).collect::<SmallVec<_>>())
 }
 
+fn samples(values: &PlaneValues) -> FlatSamples {
+    match values {
+        PlaneValues::Float(values) => FlatSamples::F32(values.clone()),
+        PlaneValues::Uint(values) => FlatSamples::U32(values.clone()),
+    }
+}
+
 fn plane(channel: AnyChannel<FlatSamples>) -> Plane {
-    Plane { name: channel.name.to_string(), values: channel.sample_data.values_as_f32().collect() }
+    let values = match channel.sample_data {
+        FlatSamples::U32(values) => PlaneValues::Uint(values),
+        FlatSamples::F32(values) => PlaneValues::Float(values),
+        half => PlaneValues::Float(half.values_as_f32().collect()),
+    };
+    Plane { name: channel.name.to_string(), values }
 }
 
 /// Removes the plane of this name.
 fn take(planes: &mut Vec<Plane>, name: &str) -> Result<Vec<f32>, String> {
     let index = planes.iter().position(|plane| plane.name == name);
-    index.map(|index| planes.remove(index).values).ok_or_else(|| format!("has no channel {name}"))
+    match index.map(|index| planes.remove(index).values) {
+        Some(PlaneValues::Float(values)) => Ok(values),
+        Some(PlaneValues::Uint(_)) => Err(format!("channel {name} holds whole numbers, not light")),
+        None => Err(format!("has no channel {name}")),
+    }
 }
 
 fn into_io(error: Error) -> io::Error {
@@ -78,7 +91,9 @@ mod tests {
     fn planes_and_odd_values_come_back() {
         let mut film =
             Film::from_pixels(2, 1, vec![[1.0, f32::INFINITY, -3.0], [1e-40, 0.1, 65505.0]]).unwrap();
-        film.planes.push(Plane { name: "depth.Z".into(), values: vec![1.5, f32::INFINITY] });
+        let depth = PlaneValues::Float(vec![1.5, f32::INFINITY]);
+        film.planes.push(Plane { name: "depth.Z".into(), values: depth });
+        film.planes.push(Plane { name: "id.object".into(), values: PlaneValues::Uint(vec![u32::MAX, 0]) });
         let mut bytes = Vec::new();
         write(&film, &mut bytes).unwrap();
         assert_eq!(decode(&bytes), Ok(film));

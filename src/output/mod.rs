@@ -3,6 +3,7 @@
 //! A film becomes bytes by [`encode`]; [`write_file`] puts them in place in one step, so that a target is either the
 //! old file or the whole new one.
 
+mod camera;
 mod encode;
 mod error;
 mod exr;
@@ -14,6 +15,7 @@ mod png;
 mod ppm;
 mod read;
 
+pub use camera::{camera_json, camera_path};
 pub use encode::encode;
 pub use error::OutputError;
 pub use file::{check_writable, write_atomically, write_file, write_stdout};

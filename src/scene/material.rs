@@ -47,6 +47,8 @@ pub struct MaterialRow {
     pub scatter: Scatter,
     /// Texture row on the diffuse coefficient, or [`NO_TEXTURE`].
     pub texture: u32,
+    /// Number as pictures show it ([`crate::film::Aov::MaterialId`]).
+    pub id: u32,
 }
 
 /// All materials of a scene, by column.
@@ -68,6 +70,8 @@ pub struct Materials {
     pub scatter: Vec<Scatter>,
     /// See [`MaterialRow::texture`].
     pub texture: Vec<u32>,
+    /// See [`MaterialRow::id`].
+    pub id: Vec<u32>,
 }
 
 impl Materials {
@@ -89,6 +93,7 @@ impl Materials {
         self.ior.push(row.ior);
         self.scatter.push(row.scatter);
         self.texture.push(row.texture);
+        self.id.push(row.id);
         self.len() as u32 - 1
     }
 }

@@ -4,6 +4,13 @@ use super::Scene;
 use crate::geometry::{bytes, bytes_of};
 
 impl Scene {
+    /// Bytes of all that the scene holds.
+    pub fn size_bytes(&self) -> u64 {
+        let columns =
+            self.geometry.memory().into_iter().chain(self.accel.memory()).chain(self.surface_memory());
+        columns.map(|column| column.1).sum()
+    }
+
     /// Name and bytes of materials and textures.
     pub fn surface_memory(&self) -> Vec<(String, u64)> {
         let m = &self.materials;

@@ -5,6 +5,7 @@ mod compile;
 mod light;
 mod material;
 mod memory;
+mod objects;
 mod requirements;
 mod texture;
 
@@ -12,11 +13,14 @@ pub use camera::{Camera, CameraRays, Projection};
 pub use compile::{CompileError, CompileTimes};
 pub use light::Light;
 pub use material::{MaterialRow, Materials, NO_TEXTURE, Scatter};
+pub use objects::ObjectRows;
 pub use requirements::Requirements;
 pub use texture::sample_texture;
 
+use std::sync::Arc;
+
 use crate::accel::{Accel, Quality};
-use crate::film::Tone;
+use crate::film::{AovSet, Tone};
 use crate::geometry::Geometry;
 use crate::intersect::TierName;
 use crate::load::Texture;
@@ -71,19 +75,21 @@ pub struct RenderSettings {
     pub min_throughput: f64,
     /// Exposure and curve for the 8-bit formats.
     pub tone: Tone,
+    /// Values beside colour.
+    pub aovs: AovSet,
 }
 
-/// A scene ready to render.
+/// A scene ready to render. What is costly to make is shared with the same scene [seen otherwise](Scene::seen_by).
 #[derive(Debug)]
 pub struct Scene {
     /// Primitives.
-    pub geometry: Geometry,
+    pub geometry: Arc<Geometry>,
     /// Trees over them.
-    pub accel: Accel,
+    pub accel: Arc<Accel>,
     /// Materials.
-    pub materials: Materials,
+    pub materials: Arc<Materials>,
     /// Textures.
-    pub textures: Vec<Texture>,
+    pub textures: Arc<Vec<Texture>>,
     /// Lights.
     pub lights: Vec<Light>,
     /// The camera.
@@ -94,6 +100,8 @@ pub struct Scene {
     pub settings: RenderSettings,
     /// What of the renderer this needs.
     pub requirements: Requirements,
+    /// Which object each primitive belongs to; empty unless the settings ask for it.
+    pub objects: Arc<ObjectRows>,
     /// Triangles left out because they have no area.
     pub skipped_triangles: usize,
     /// How long compiling took.

@@ -10,7 +10,6 @@ use rayon::prelude::*;
 
 use super::adaptive_tile::{Limits, TileState, TileTally};
 use super::shared::Shared;
-use super::tile::tiles;
 use super::wave::Frame;
 use super::wave_runner::WaveRunner;
 use crate::intersect::Tier;
@@ -59,14 +58,14 @@ fn tile_by_tile<T: Tier>(frame: &Frame, shared: &Shared, limits: &Limits) -> Vec
         while !shared.is_cancelled() && state.round(waves, limits, &|| shared.is_cancelled()) {}
         let rays = shared.count(waves.take_counts());
         shared.advance(state.pixels().len() as u64, rays);
-        state.finish(shared, limits)
+        state.finish(waves, shared, limits)
     };
-    tiles(shared.part).into_par_iter().map_init(|| WaveRunner::new(frame), finish).collect()
+    shared.tiles.par_iter().copied().map_init(|| WaveRunner::new(frame), finish).collect()
 }
 
 /// Goes over the whole picture again and again.
 fn round_by_round<T: Tier>(frame: &Frame, shared: &Shared, limits: &Limits) -> Vec<TileTally> {
-    let mut states: Vec<TileState> = tiles(shared.part).into_iter().map(TileState::new).collect();
+    let mut states: Vec<TileState> = shared.tiles.iter().copied().map(TileState::new).collect();
     let stop = || shared.is_cancelled() || limits.is_late();
     let round = |waves: &mut WaveRunner<T>, state: &mut TileState| {
         let more = state.round(waves, limits, &stop);
@@ -79,7 +78,8 @@ fn round_by_round<T: Tier>(frame: &Frame, shared: &Shared, limits: &Limits) -> V
         let rounds = states.par_iter_mut().map_init(|| WaveRunner::new(frame), round);
         more = rounds.reduce(|| false, |a, b| a | b) && !stop();
     }
-    states.into_iter().map(|state| state.finish(shared, limits)).collect()
+    let finish = |waves: &mut WaveRunner<T>, state: TileState| state.finish(waves, shared, limits);
+    states.into_par_iter().map_init(|| WaveRunner::new(frame), finish).collect()
 }
 
 /// In the order of tiles, so that the sum is the same in any order of threads.

@@ -119,9 +119,18 @@ impl TileState {
     }
 
     /// Writes the pixels, and says how good they are.
-    pub(super) fn finish(mut self, shared: &Shared, limits: &Limits) -> TileTally {
-        shared.store(&self.pixels, self.states.iter_mut().map(|pixel| pixel.sum.total()));
+    pub(super) fn finish<T: Tier>(
+        mut self,
+        waves: &mut WaveRunner<T>,
+        shared: &Shared,
+        limits: &Limits,
+    ) -> TileTally {
+        let mut seen = Vec::new();
+        waves.look(&self.pixels, &mut seen);
+        shared.count(waves.take_counts());
+        shared.store(&self.pixels, self.states.iter_mut().map(|pixel| pixel.sum.total()), &seen);
         let spreads = || self.states.iter().map(|pixel| &pixel.spread);
+        shared.store_counts(&self.pixels, spreads().map(Spread::samples));
         TileTally {
             pixels: self.states.len() as u64,
             variance: spreads().map(Spread::variance).sum(),

@@ -6,13 +6,15 @@
 
 mod adaptive;
 mod adaptive_tile;
+mod aov;
 mod connect;
 mod emit;
 mod extend;
-mod fixed;
+
 mod generate;
 mod medium;
 mod offset;
+mod paint;
 mod queue;
 mod render;
 mod run;
@@ -26,6 +28,8 @@ mod wave_runner;
 
 pub use adaptive::{Goal, Reached};
 pub(crate) use offset::offset_along;
+pub(crate) use paint::{Painted, Tiles, paint};
 pub use render::{Progress, RenderError, RenderOptions, RenderReport, render};
 pub(crate) use surface::{HitLanes, evaluate};
+pub(crate) use tile::{Rect, mean, pixels, tiles};
 pub use wave::RayCounts;

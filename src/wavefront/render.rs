@@ -3,15 +3,13 @@
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
-use rayon::prelude::*;
-
 use super::adaptive::{self, Goal, Reached};
-use super::fixed::TileWorker;
-use super::shared::Shared;
-use super::tile::{Rect, tiles};
+use super::paint::paint;
+use super::shared::{Finished, Shared};
+use super::tile::Rect;
 use super::wave::{Frame, RayCounts};
 use crate::film::Film;
-use crate::intersect::{Exact, Fast, Tier, TierName, Watertight};
+use crate::intersect::{Exact, Fast, TierName, Watertight};
 use crate::scene::Scene;
 
 /// How a scene is rendered; nothing here but `goal` changes the bytes of the pixels it renders.
@@ -79,39 +77,31 @@ pub enum RenderError {
 
 /// Renders a scene, or the part of it that `options.crop` names.
 ///
-/// The film has the size of that part. Its bytes depend on the scene alone: not on threads, nor on the crop. With a goal of
+/// The film has the size of that part, and the planes that the scene's settings ask for. Its bytes depend on the scene alone: not on threads, nor on the crop. With a goal of
 /// `max_error` they depend on that too, and with one of `time_limit` on the machine.
 ///
 /// **Errors:** [`RenderError`].
 pub fn render(scene: &Scene, options: &RenderOptions) -> Result<(Film, RenderReport), RenderError> {
-    match scene.settings.tier {
-        TierName::Fast => render_tier::<Fast>(scene, options),
-        TierName::Watertight => render_tier::<Watertight>(scene, options),
-        TierName::Exact => render_tier::<Exact>(scene, options),
-    }
-}
-
-fn render_tier<T: Tier>(scene: &Scene, options: &RenderOptions) -> Result<(Film, RenderReport), RenderError> {
     let start = Instant::now();
     let part = part(scene, options.crop)?;
     let pool = rayon::ThreadPoolBuilder::new().num_threads(options.threads).build()?;
-    let frame = Frame::new(scene);
-    let shared = Shared::new(part, options);
-    let reached = pool.install(|| match options.goal {
-        Some(goal) => Some(adaptive::render::<T>(&frame, &shared, goal, start)),
+    let shared = Shared::new(scene, part, options);
+    let reached = match options.goal {
         None => {
-            tiles(part)
-                .into_par_iter()
-                .for_each_init(|| TileWorker::<T>::new(&frame), |worker, tile| worker.render(tile, &shared));
+            pool.broadcast(|_| paint(scene, 0..scene.settings.spp, &shared));
             None
         }
-    });
+        Some(goal) => Some(pool.install(|| match scene.settings.tier {
+            TierName::Fast => adaptive::render::<Fast>(&Frame::new(scene), &shared, goal, start),
+            TierName::Watertight => adaptive::render::<Watertight>(&Frame::new(scene), &shared, goal, start),
+            TierName::Exact => adaptive::render::<Exact>(&Frame::new(scene), &shared, goal, start),
+        })),
+    };
     if shared.is_cancelled() {
         return Err(RenderError::Cancelled);
     }
     let threads = pool.current_num_threads();
-    let (film, rays, nan_samples) = shared.finish();
-    let samples = rays.camera;
+    let Finished { film, rays, samples, nan_samples } = shared.finish();
     Ok((film, RenderReport { rays, samples, nan_samples, render_time: start.elapsed(), threads, reached }))
 }
 

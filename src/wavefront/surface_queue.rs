@@ -98,7 +98,7 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         lanes: u32,
     ) {
         let at = self.len;
-        let inside = hit.direction.dot(surface.geometric_normal).gt(L::zero());
+        let inside = from_inside(hit, &surface);
         let facing = |n: Vec3<L>| Vec3::select(inside, -n, n);
         let geometric_normal = facing(surface.geometric_normal);
         self.point.compress(at, surface.point, lanes);
@@ -171,8 +171,23 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
     }
 }
 
+/// The lanes whose rays come from inside, against the outward normal.
 #[inline(always)]
-fn gather_hits<L: Lane>(
+fn from_inside<L: Lane>(hit: &HitLanes<L>, surface: &SurfaceLanes<L>) -> L::Mask {
+    hit.direction.dot(surface.geometric_normal).gt(L::zero())
+}
+
+/// Geometric and shading normal on the side that rays come from.
+#[inline(always)]
+pub(super) fn facing<L: Lane>(hit: &HitLanes<L>, surface: &SurfaceLanes<L>) -> [Vec3<L>; 2] {
+    let inside = from_inside(hit, surface);
+    let [geometric, shading] =
+        [surface.geometric_normal, surface.shading_normal].map(|n| Vec3::select(inside, -n, n));
+    [geometric, towards(shading, geometric, hit.direction)]
+}
+
+#[inline(always)]
+pub(super) fn gather_hits<L: Lane>(
     queue: &PathQueue<L::Scalar>,
     paths: &Rows,
     hits: &Hits<L::Scalar>,
@@ -189,7 +204,7 @@ fn gather_hits<L: Lane>(
     }
 }
 
-fn material_of(scene: &Scene, kind: crate::intersect::PrimKind, row: u32, instance: u32) -> u32 {
+pub(super) fn material_of(scene: &Scene, kind: crate::intersect::PrimKind, row: u32, instance: u32) -> u32 {
     let override_of = |n: u32| scene.geometry.instances[n as usize - 1].material;
     match instance {
         n if n != 0 && override_of(n) != NO_MATERIAL => override_of(n),
@@ -205,7 +220,7 @@ fn towards<L: Lane>(shading: Vec3<L>, geometric: Vec3<L>, direction: Vec3<L>) ->
 }
 
 /// Texture colours; white where a material has no texture.
-fn texture_color<L: Lane>(scene: &Scene, materials: &[u32; WIDTH], (u, v): (L, L)) -> Vec3<L> {
+pub(super) fn texture_color<L: Lane>(scene: &Scene, materials: &[u32; WIDTH], (u, v): (L, L)) -> Vec3<L> {
     let of = |i: usize| match scene.materials.texture[materials[i] as usize] {
         NO_TEXTURE => [1.0; 3],
         row => sample_texture(&scene.textures[row as usize], [u.get(i).to_f32(), v.get(i).to_f32()]),

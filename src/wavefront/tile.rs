@@ -10,16 +10,16 @@ const BLOCK: [u32; 2] = [4, 2];
 const BUNDLE: [u32; 2] = [8, 8];
 
 /// A rectangle of pixels: left, top, width, height.
-pub(super) type Rect = [u32; 4];
+pub(crate) type Rect = [u32; 4];
 
 /// The tiles that cover a rectangle, row by row.
-pub(super) fn tiles(rect: Rect) -> Vec<Rect> {
+pub(crate) fn tiles(rect: Rect) -> Vec<Rect> {
     parts(rect, [TILE; 2]).collect()
 }
 
 /// The pixels of a tile, bundle by bundle and in it block by block, so that eight neighbours in the list are neighbours in
 /// the picture, and 64 too.
-pub(super) fn pixels(tile: Rect, list: &mut Vec<[u32; 2]>) {
+pub(crate) fn pixels(tile: Rect, list: &mut Vec<[u32; 2]>) {
     list.clear();
     for bundle in parts(tile, BUNDLE) {
         for [x, y, width, height] in parts(bundle, BLOCK) {
@@ -41,7 +41,7 @@ fn parts([x, y, width, height]: Rect, [w, h]: [u32; 2]) -> impl Iterator<Item = 
 pub(super) type Sums = Vec<PixelSum<4>>;
 
 /// The mean of a pixel's samples: over the sum of weights, which is their number where samples have no weights.
-pub(super) fn mean([r, g, b, weight]: [f32; 4]) -> [f32; 3] {
+pub(crate) fn mean([r, g, b, weight]: [f32; 4]) -> [f32; 3] {
     // Weights of a filter with negative lobes may cancel in a pixel with few samples: such a pixel says nothing.
     if weight > 0.0 { [r / weight, g / weight, b / weight] } else { [0.0; 3] }
 }

@@ -42,9 +42,14 @@ impl RayCounts {
 }
 
 /// What a worker did.
-pub(super) struct WaveCounts {
-    pub(super) rays: RayCounts,
-    pub(super) nan_samples: u64,
+#[derive(Clone, Copy, Default)]
+pub(crate) struct WaveCounts {
+    /// Rays traced.
+    pub(crate) rays: RayCounts,
+    /// Camera samples.
+    pub(crate) samples: u64,
+    /// Contributions left out because they were not numbers.
+    pub(crate) nan_samples: u64,
 }
 
 /// Which samples a wave holds: slot `k * pixels.len() + p` is sample `first_sample + k` of pixel `p`.

@@ -2,10 +2,11 @@
 
 use bumpalo::Bump;
 
+use super::aov::look;
 use super::run::run_wave;
 use super::wave::{Frame, RayCounts, WaveCounts, WaveSamples, Worker};
 use crate::accel::stream::RayStream;
-use crate::film::SampleSums;
+use crate::film::{AovSample, SampleSums};
 use crate::intersect::Tier;
 use crate::math::Real;
 
@@ -17,6 +18,7 @@ pub(super) struct WaveRunner<'a, T: Tier> {
     worker: Worker<'a, T>,
     arenas: Vec<Bump>,
     weights: Vec<f32>,
+    samples: u64,
     nan_samples: u64,
 }
 
@@ -35,13 +37,9 @@ impl<'a, T: Tier> WaveRunner<'a, T> {
             },
             arenas: (0..=depths).map(|_| Bump::with_capacity(ARENA)).collect(),
             weights: Vec::new(),
+            samples: 0,
             nan_samples: 0,
         }
-    }
-
-    /// Samples a pixel that the scene asks for.
-    pub(super) fn spp(&self) -> u32 {
-        self.worker.frame.scene.settings.spp
     }
 
     /// Traces a wave; gives each slot and its sample (three channels times the weight, and the weight), sample by sample.
@@ -51,6 +49,7 @@ impl<'a, T: Tier> WaveRunner<'a, T> {
         self.weights.resize(wave.len(), 1.0);
         let weights = &mut self.weights;
         run_wave(&mut self.worker, wave, &mut self.arenas, |slot, w: T::Real| weights[slot] = w.to_f32());
+        self.samples += wave.len() as u64;
         self.nan_samples += self.worker.radiance.nan_count();
         for slot in 0..wave.len() {
             let weight = self.weights[slot];
@@ -59,10 +58,19 @@ impl<'a, T: Tier> WaveRunner<'a, T> {
         }
     }
 
+    /// Looks for the values beside colour of pixels, if the scene wants any: a sample for each, or none at all.
+    pub(super) fn look(&mut self, pixels: &[[u32; 2]], seen: &mut Vec<AovSample>) {
+        seen.clear();
+        if self.worker.frame.scene.settings.aovs.needs_rays() {
+            look(&mut self.worker, pixels, &mut self.arenas, seen);
+        }
+    }
+
     /// What was done since the last call.
     pub(super) fn take_counts(&mut self) -> WaveCounts {
         WaveCounts {
             rays: std::mem::take(&mut self.worker.rays),
+            samples: std::mem::take(&mut self.samples),
             nan_samples: std::mem::take(&mut self.nan_samples),
         }
     }

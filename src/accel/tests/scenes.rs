@@ -180,7 +180,7 @@ impl World {
             }
         });
         g.groups = groups.to_vec();
-        let shown = |&to_world: &Transform| Instance { group: 1, to_world, material: NO_MATERIAL };
+        let shown = |&to_world: &Transform| Instance { group: 1, to_world, material: NO_MATERIAL, object: 1 };
         g.instances = self.instances.iter().map(shown).collect();
         g
     }

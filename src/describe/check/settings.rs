@@ -64,6 +64,10 @@ fn window(f: &mut Faults, c: &Camera) {
 }
 
 fn render(f: &mut Faults, r: &Render) {
+    let twice = r.aovs.iter().enumerate().find(|(i, aov)| r.aovs[..*i].contains(aov));
+    if let Some((_, aov)) = twice {
+        f.add_at("aovs", format!("has `{}` twice", aov.name()));
+    }
     let pixels = r.size.iter().map(|&s| u64::from(s)).product::<u64>();
     let [width, height] = r.size;
     f.require("size", pixels > 0, &format!("a picture of {width} x {height} pixels has no pixel"));

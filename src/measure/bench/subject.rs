@@ -2,6 +2,7 @@
 
 use std::fmt;
 use std::str::FromStr;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 use crate::accel::Accel;
@@ -81,7 +82,8 @@ impl Subject {
             return None;
         }
         let factor = scale_of(&bounds);
-        let Scene { mut geometry, camera, lights, .. } = scene;
+        let Scene { geometry, camera, lights, .. } = scene;
+        let mut geometry = Arc::unwrap_or_clone(geometry);
         geometry.planes = Planes::default();
         scale(&mut geometry, factor as f32);
         let start = Instant::now();

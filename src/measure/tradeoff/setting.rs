@@ -1,5 +1,7 @@
 //! One way to render a scene.
 
+use std::sync::Arc;
+
 use std::fmt;
 
 use serde::Serialize;
@@ -132,10 +134,11 @@ impl Stage {
         (s.tier, s.spp, s.sampler) = (setting.tier, setting.spp, setting.sampler);
         (s.max_depth, s.min_throughput) = (setting.max_depth, setting.min_throughput);
         s.size = self.size.map(|side| side / setting.shrink);
-        scene.materials.scatter.clone_from(&self.scatter);
+        let materials = Arc::make_mut(&mut scene.materials);
+        materials.scatter.clone_from(&self.scatter);
         if !setting.bounce {
             let diffuse = |scatter: &&mut Scatter| **scatter == Scatter::Diffuse;
-            scene.materials.scatter.iter_mut().filter(diffuse).for_each(|scatter| *scatter = Scatter::Absorb);
+            materials.scatter.iter_mut().filter(diffuse).for_each(|scatter| *scatter = Scatter::Absorb);
         }
         scene.requirements = Requirements::of(
             &scene.geometry,

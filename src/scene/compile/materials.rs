@@ -16,7 +16,10 @@ const MAX_ROWS: usize = u16::MAX as usize;
 /// declared requires nothing.
 pub(super) struct MaterialTable {
     rows: Materials,
-    declared: HashMap<String, Material>,
+    /// With their numbers, from 1.
+    declared: HashMap<String, (u32, Material)>,
+    /// Number of the next material that is not declared.
+    next_id: u32,
     /// Rows by name; that of objects without a material has none.
     by_name: HashMap<Option<String>, u32>,
     textures: Vec<Texture>,
@@ -29,7 +32,11 @@ impl MaterialTable {
     pub(super) fn new(description: &SceneDescription) -> Self {
         Self {
             rows: Materials::default(),
-            declared: description.material.iter().map(|m| (m.name.clone(), m.clone())).collect(),
+            declared: (1..)
+                .zip(&description.material)
+                .map(|(id, m)| (m.name.clone(), (id, m.clone())))
+                .collect(),
+            next_id: description.material.len() as u32 + 1,
             by_name: HashMap::new(),
             textures: Vec::new(),
             texture_of: HashMap::new(),
@@ -45,15 +52,20 @@ impl MaterialTable {
             return Ok(row);
         }
         let declared = name.and_then(|name| self.declared.get(name)).cloned();
-        let mut material = declared.unwrap_or_else(|| Material::new("", MaterialKind::Diffuse));
+        let (id, mut material) = declared.unwrap_or_else(|| (0, Material::new("", MaterialKind::Diffuse)));
         material.texture = material.texture.map(|path| self.folder.join(path));
-        let row = self.add(&material)?;
+        let row = self.push(&material, id)?;
         self.by_name.insert(key, row);
         Ok(row)
     }
 
     /// A new row for a material whose texture path is complete, as those of mesh files are.
     pub(super) fn add(&mut self, m: &Material) -> Result<u32, CompileError> {
+        self.next_id += 1;
+        self.push(m, self.next_id - 1)
+    }
+
+    fn push(&mut self, m: &Material, id: u32) -> Result<u32, CompileError> {
         if self.rows.len() == MAX_ROWS {
             return Err(CompileError::TooMany { what: "materials", limit: MAX_ROWS });
         }
@@ -69,6 +81,7 @@ impl MaterialTable {
             ior: m.ior as f32,
             scatter: scatter(m),
             texture,
+            id,
         }))
     }
 

@@ -5,14 +5,14 @@ use super::rows::{finite, room, rows};
 use super::world::World;
 use crate::describe;
 use crate::geometry::{Triangles, push3, row3};
-use crate::load::{self, load_described};
+use crate::load;
 use crate::math::Transform;
 use glam::DVec3;
 
 impl World<'_> {
     /// A mesh of the scene file, from wherever its triangles come.
     pub(super) fn described_mesh(&mut self, mesh: &describe::Mesh) -> Result<(), CompileError> {
-        let loaded = load_described(mesh, &self.description.folder)?;
+        let loaded = self.meshes.load(mesh, &self.description.folder)?;
         self.mesh(&loaded, mesh.material.as_deref(), &rows(&mesh.transform, "mesh")?, "mesh")
     }
 

@@ -6,15 +6,19 @@ mod rows;
 mod view;
 mod world;
 
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-use super::{Background, RenderSettings, Requirements, Scene};
+use super::{Background, Materials, ObjectRows, RenderSettings, Requirements, Scene};
 use crate::accel::Accel;
 use crate::describe::{Fault, SceneDescription};
-use crate::load::LoadError;
+use crate::film::Aov;
+use crate::geometry::Geometry;
+use crate::intersect::TierName;
+use crate::load::{KeptMeshes, LoadError, Texture};
 use crate::math::TransformError;
 use materials::MaterialTable;
-use world::World;
+use world::{Filled, World};
 
 /// Why a description cannot become a scene.
 #[derive(Debug, thiserror::Error)]
@@ -68,22 +72,87 @@ impl Scene {
     ///
     /// **Errors:** [`CompileError`], naming the object.
     pub fn compile(description: &SceneDescription) -> Result<Self, CompileError> {
+        Self::compile_like(description, &KeptMeshes::default(), None)
+    }
+
+    /// As [`Scene::compile`], with meshes that may be kept from before, and a tree that may be that of `like`, moved.
+    ///
+    /// Hits are those of a new tree in all tiers but `fast`, which therefore has a new one.
+    ///
+    /// **Errors:** [`CompileError`], naming the object.
+    pub fn compile_like(
+        description: &SceneDescription,
+        meshes: &KeptMeshes,
+        like: Option<&Self>,
+    ) -> Result<Self, CompileError> {
         let start = Instant::now();
         description.check().map_err(CompileError::Description)?;
         let mut table = MaterialTable::new(description);
-        let (geometry, skipped_triangles) = World::compile(description, &mut table)?;
+        let settings = RenderSettings::of(description);
+        let objects = ObjectRows::wanted(settings.aovs.has(Aov::ObjectId));
+        let Filled { geometry, objects, skipped_triangles } =
+            World::compile(description, &mut table, meshes, objects)?;
+        let (materials, textures) = table.finish();
+        let load = start.elapsed();
+        let like = like.filter(|_| settings.tier != TierName::Fast);
+        let accel = like.and_then(|like| refitted(&like.accel, &geometry));
+        let accel = accel.unwrap_or_else(|| Accel::build_with(&geometry, settings.build_quality));
+        let times = CompileTimes { load, build: start.elapsed() - load };
+        let columns = Columns {
+            geometry: Arc::new(geometry),
+            accel: Arc::new(accel),
+            materials: Arc::new(materials),
+            textures: Arc::new(textures),
+            objects: Arc::new(objects),
+            skipped_triangles,
+        };
+        Ok(Self { times, ..columns.seen_by(description)? })
+    }
+
+    /// The same objects by the camera, lights and settings of another description, which must be checked and describe the
+    /// same objects, materials and background. Nothing is loaded or built.
+    ///
+    /// **Errors:** [`CompileError`], for a camera that cannot be.
+    pub fn seen_by(&self, description: &SceneDescription) -> Result<Self, CompileError> {
+        let columns = Columns {
+            geometry: Arc::clone(&self.geometry),
+            accel: Arc::clone(&self.accel),
+            materials: Arc::clone(&self.materials),
+            textures: Arc::clone(&self.textures),
+            objects: Arc::clone(&self.objects),
+            skipped_triangles: self.skipped_triangles,
+        };
+        columns.seen_by(description)
+    }
+}
+
+/// A tree over primitives that moved, if it is one over these.
+fn refitted(accel: &Accel, geometry: &Geometry) -> Option<Accel> {
+    let mut moved = accel.clone();
+    moved.refit(geometry).is_ok().then_some(moved)
+}
+
+/// What of a scene does not depend on who looks at it.
+struct Columns {
+    geometry: Arc<Geometry>,
+    accel: Arc<Accel>,
+    materials: Arc<Materials>,
+    textures: Arc<Vec<Texture>>,
+    objects: Arc<ObjectRows>,
+    skipped_triangles: usize,
+}
+
+impl Columns {
+    fn seen_by(self, description: &SceneDescription) -> Result<Scene, CompileError> {
+        let Self { geometry, accel, materials, textures, objects, skipped_triangles } = self;
         let settings = RenderSettings::of(description);
         let camera = view::camera(description)?;
         let lights = view::lights(description);
-        let (materials, textures) = table.finish();
         let weights = settings.filter.has_negative_lobes();
         let requirements =
             Requirements::of(&geometry, &materials, &lights, &camera, settings.max_depth, weights);
-        let load = start.elapsed();
-        let accel = Accel::build_with(&geometry, settings.build_quality);
-        let times = CompileTimes { load, build: start.elapsed() - load };
         let background = Background::of(description);
-        Ok(Self {
+        Ok(Scene {
             geometry,
             accel,
             materials,
@@ -93,8 +162,9 @@ impl Scene {
             background,
             settings,
             requirements,
+            objects,
             skipped_triangles,
-            times,
+            times: CompileTimes::default(),
         })
     }
 }

@@ -3,8 +3,9 @@
 use super::CompileError;
 use super::world::World;
 use crate::describe;
-use crate::intersect::PrimId;
+use crate::intersect::{PrimId, PrimKind};
 use crate::math::Transform;
+use crate::scene::objects::FirstNumbers;
 
 impl World<'_> {
     pub(super) fn sphere(&mut self, s: &describe::Sphere) -> Result<(), CompileError> {
@@ -34,7 +35,9 @@ impl World<'_> {
     }
 
     pub(super) fn planes(&mut self) -> Result<(), CompileError> {
-        for p in &self.description.plane {
+        let first = FirstNumbers::of(&self.description.objects(), self.description.plane.len()).plane;
+        for (p, number) in self.description.plane.iter().zip(first..) {
+            self.begin(PrimKind::Plane, number);
             let point = finite(p.point, "point of a plane")?;
             let length = p.normal.iter().map(|n| n * n).sum::<f64>().sqrt();
             let normal = finite(p.normal.map(|n| n / length), "normal of a plane")?;

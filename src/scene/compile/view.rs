@@ -113,6 +113,7 @@ impl RenderSettings {
             },
             filter: filter(&r.filter),
             min_throughput: r.min_throughput,
+            aovs: r.aovs.iter().copied().collect(),
             tone: Tone {
                 exposure_ev: r.exposure as f32,
                 curve: match r.tone {

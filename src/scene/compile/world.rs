@@ -7,6 +7,9 @@ use super::materials::MaterialTable;
 use super::rows::{is_bent, rows};
 use crate::describe::{self, Objects, SceneDescription, Target};
 use crate::geometry::{Geometry, Group, Instance, NO_MATERIAL};
+use crate::intersect::PrimKind;
+use crate::load::KeptMeshes;
+use crate::scene::objects::{FirstNumbers, ObjectRows};
 
 /// Most instances of a scene: about a gigabyte of transforms.
 const MAX_INSTANCES: usize = 1 << 22;
@@ -39,48 +42,64 @@ enum Key {
 pub(super) struct World<'a> {
     pub(super) description: &'a SceneDescription,
     pub(super) table: &'a mut MaterialTable,
+    pub(super) meshes: &'a KeptMeshes,
     pub(super) geometry: Geometry,
     parts: Vec<Part>,
     part_of: HashMap<Key, usize>,
+    pub(super) objects: ObjectRows,
+    pub(super) skipped_triangles: usize,
+}
+
+/// What a description's objects became.
+pub(super) struct Filled {
+    pub(super) geometry: Geometry,
+    pub(super) objects: ObjectRows,
+    /// Triangles left out because they have no area.
     pub(super) skipped_triangles: usize,
 }
 
 impl<'a> World<'a> {
-    /// All objects of a description as columns, and how many triangles were left out because they have no area.
+    /// All objects of a description as columns.
     pub(super) fn compile(
         description: &'a SceneDescription,
         table: &'a mut MaterialTable,
-    ) -> Result<(Geometry, usize), CompileError> {
+        meshes: &'a KeptMeshes,
+        objects: ObjectRows,
+    ) -> Result<Filled, CompileError> {
         let mut world = World {
             description,
             table,
+            meshes,
             geometry: Geometry::default(),
             // Part 0 is the world; its rows are filled last but its number is first.
             parts: vec![Part::default()],
             part_of: HashMap::new(),
+            objects,
             skipped_triangles: 0,
         };
         let top = world.part(description.objects())?;
         world.parts[0] = top;
         world.planes()?;
-        let skipped = world.skipped_triangles;
-        Ok((world.flatten()?, skipped))
+        let (skipped_triangles, objects) = (world.skipped_triangles, std::mem::take(&mut world.objects));
+        Ok(Filled { geometry: world.flatten()?, objects, skipped_triangles })
     }
 
     /// Compiles objects to a part. Parts that it shows are compiled first, so that its own rows are contiguous.
     fn part(&mut self, objects: Objects<'_>) -> Result<Part, CompileError> {
-        let mut shows = self.instances(objects.instances)?;
-        self.bent(objects, &mut shows)?;
+        let first = FirstNumbers::of(&objects, self.description.plane.len());
+        let mut shows = self.instances(objects.instances, first.instance)?;
+        self.bent(objects, first, &mut shows)?;
         let mut own_meshes = Vec::new();
-        for mesh in objects.meshes {
+        for (mesh, number) in objects.meshes.iter().zip(first.mesh..) {
             match mesh.name.as_deref().filter(|name| self.is_shown(name)) {
-                Some(name) => shows.push(self.shown_mesh(name, mesh)?),
-                None => own_meshes.push(mesh),
+                Some(name) => shows.push(self.shown_mesh(name, mesh, number)?),
+                None => own_meshes.push((mesh, number)),
             }
         }
         let start = self.row_counts();
-        self.own_rows(objects)?;
-        for mesh in own_meshes {
+        self.own_rows(objects, first)?;
+        for (mesh, number) in own_meshes {
+            self.begin(PrimKind::Triangle, number);
             self.described_mesh(mesh)?;
         }
         let end = self.row_counts();
@@ -90,34 +109,53 @@ impl<'a> World<'a> {
 
     /// Objects under transforms that their columns cannot hold (ellipsoids, elliptic cylinders) become instances of parts
     /// of their own.
-    fn bent(&mut self, objects: Objects<'_>, shows: &mut Vec<Instance>) -> Result<(), CompileError> {
-        for s in objects.spheres.iter().filter(|s| is_bent(&s.transform)) {
-            let straight = describe::Sphere { transform: Default::default(), ..s.clone() };
-            shows.push(self.alone(Objects { spheres: &[straight], ..NOTHING }, &s.transform, "sphere")?);
+    fn bent(
+        &mut self,
+        objects: Objects<'_>,
+        first: FirstNumbers,
+        shows: &mut Vec<Instance>,
+    ) -> Result<(), CompileError> {
+        for (s, number) in objects.spheres.iter().zip(first.sphere..).filter(|(s, _)| is_bent(&s.transform)) {
+            let straight = [describe::Sphere { transform: Default::default(), ..s.clone() }];
+            let group = self.alone(Objects { spheres: &straight, ..NOTHING })?;
+            shows.push(placed(group, &s.transform, number, "sphere")?);
         }
-        for c in objects.cylinders.iter().filter(|c| is_bent(&c.transform)) {
-            let straight = describe::Cylinder { transform: Default::default(), ..c.clone() };
-            let objects = Objects { cylinders: &[straight], ..NOTHING };
-            shows.push(self.alone(objects, &c.transform, "cylinder")?);
+        for (c, number) in
+            objects.cylinders.iter().zip(first.cylinder..).filter(|(c, _)| is_bent(&c.transform))
+        {
+            let straight = [describe::Cylinder { transform: Default::default(), ..c.clone() }];
+            let group = self.alone(Objects { cylinders: &straight, ..NOTHING })?;
+            shows.push(placed(group, &c.transform, number, "cylinder")?);
         }
         Ok(())
     }
 
     /// Everything but meshes and what is bent, as rows of the columns.
-    fn own_rows(&mut self, objects: Objects<'_>) -> Result<(), CompileError> {
-        for s in objects.spheres.iter().filter(|s| !is_bent(&s.transform)) {
+    fn own_rows(&mut self, objects: Objects<'_>, first: FirstNumbers) -> Result<(), CompileError> {
+        for (s, number) in objects.spheres.iter().zip(first.sphere..).filter(|(s, _)| !is_bent(&s.transform))
+        {
+            self.begin(PrimKind::Sphere, number);
             self.sphere(s)?;
         }
-        for c in objects.cylinders.iter().filter(|c| !is_bent(&c.transform)) {
+        let cylinders = objects.cylinders.iter().zip(first.cylinder..);
+        for (c, number) in cylinders.filter(|(c, _)| !is_bent(&c.transform)) {
+            self.begin(PrimKind::Cylinder, number);
             self.cylinder(c)?;
         }
-        for t in objects.triangles {
+        for (t, number) in objects.triangles.iter().zip(first.triangle..) {
+            self.begin(PrimKind::Triangle, number);
             self.polygon(&t.vertices, t.material.as_deref(), &t.transform, "triangle")?;
         }
-        for q in objects.quads {
+        for (q, number) in objects.quads.iter().zip(first.quad..) {
+            self.begin(PrimKind::Triangle, number);
             self.polygon(&q.corners(), q.material.as_deref(), &q.transform, "quad")?;
         }
         Ok(())
+    }
+
+    /// Says that the rows that follow are those of an object.
+    pub(super) fn begin(&mut self, kind: PrimKind, number: u32) {
+        self.objects.begin(kind, self.geometry.count(kind), number);
     }
 
     fn row_counts(&self) -> [usize; 3] {
@@ -132,16 +170,20 @@ impl<'a> World<'a> {
         all.any(|i| i.of == name)
     }
 
-    fn instances(&mut self, instances: &[describe::Instance]) -> Result<Vec<Instance>, CompileError> {
+    fn instances(
+        &mut self,
+        instances: &[describe::Instance],
+        first: u32,
+    ) -> Result<Vec<Instance>, CompileError> {
         let mut shows = Vec::with_capacity(instances.len());
-        for i in instances {
+        for (i, object) in instances.iter().zip(first..) {
             let group = self.target(&i.of)?;
             let material = match &i.material {
                 Some(name) => self.table.row(Some(name))?,
                 None => NO_MATERIAL,
             };
             let to_world = rows(&i.transform, &format!("instance of `{}`", i.of))?;
-            shows.push(Instance { group, to_world, material });
+            shows.push(Instance { group, to_world, material, object });
         }
         Ok(shows)
     }
@@ -183,20 +225,19 @@ impl<'a> World<'a> {
     }
 
     /// A mesh that instances show, in its own place: one more instance.
-    fn shown_mesh(&mut self, name: &str, mesh: &describe::Mesh) -> Result<Instance, CompileError> {
-        let group = self.mesh_part(name, mesh)?;
-        Ok(Instance { group, to_world: rows(&mesh.transform, name)?, material: NO_MATERIAL })
+    fn shown_mesh(
+        &mut self,
+        name: &str,
+        mesh: &describe::Mesh,
+        number: u32,
+    ) -> Result<Instance, CompileError> {
+        placed(self.mesh_part(name, mesh)?, &mesh.transform, number, name)
     }
 
-    /// Objects in a part of their own under a transform that their columns cannot hold: ellipsoids, elliptic cylinders.
-    fn alone(
-        &mut self,
-        objects: Objects<'_>,
-        transform: &describe::Transform,
-        what: &str,
-    ) -> Result<Instance, CompileError> {
+    /// Objects in a part of their own.
+    fn alone(&mut self, objects: Objects<'_>) -> Result<usize, CompileError> {
         let part = self.part(objects)?;
-        Ok(Instance { group: self.add(part), to_world: rows(transform, what)?, material: NO_MATERIAL })
+        Ok(self.add(part))
     }
 
     /// Two levels: every instance, however deep, becomes one of the world, its transforms composed.
@@ -220,8 +261,24 @@ impl<'a> World<'a> {
     }
 }
 
-/// An instance in a group as an instance of the world, through an instance of that group; the outer material wins.
+/// A part under a transform, seen as one object.
+fn placed(
+    group: usize,
+    transform: &describe::Transform,
+    object: u32,
+    what: &str,
+) -> Result<Instance, CompileError> {
+    Ok(Instance { group, to_world: rows(transform, what)?, material: NO_MATERIAL, object })
+}
+
+/// An instance in a group as an instance of the world, through an instance of that group; the outer material wins, and
+/// what is seen is the outer object.
 fn seen_through(outer: &Instance, inner: &Instance) -> Instance {
     let material = if outer.material == NO_MATERIAL { inner.material } else { outer.material };
-    Instance { group: inner.group, to_world: inner.to_world.then(&outer.to_world), material }
+    Instance {
+        group: inner.group,
+        to_world: inner.to_world.then(&outer.to_world),
+        material,
+        object: outer.object,
+    }
 }

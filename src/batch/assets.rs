@@ -1,0 +1,96 @@
+//! The files that a scene is made of, and their hashes.
+
+use std::collections::BTreeSet;
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::BatchError;
+use crate::describe::{MeshSource, SceneDescription};
+
+/// A file with its content's hash.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Asset {
+    /// Path relative to the job's folder, or absolute.
+    pub path: PathBuf,
+    /// BLAKE3 of its bytes, in hexadecimal.
+    pub blake3: String,
+}
+
+/// The hash of bytes, in hexadecimal.
+pub(super) fn hash(bytes: &[u8]) -> String {
+    blake3::hash(bytes).to_hex().to_string()
+}
+
+/// The files that scenes name: meshes, their material files, textures.
+#[derive(Default)]
+pub(super) struct Files {
+    plain: BTreeSet<PathBuf>,
+    /// Meshes whose own materials are used.
+    with_materials: BTreeSet<PathBuf>,
+}
+
+impl Files {
+    /// Takes note of what a scene names.
+    pub(super) fn see(&mut self, scene: &SceneDescription) {
+        for texture in scene.material.iter().filter_map(|material| material.texture.as_ref()) {
+            self.plain.insert(scene.resolve(texture));
+        }
+        for mesh in scene.all_meshes() {
+            let Some(MeshSource::File(path)) = mesh.source() else { continue };
+            self.plain.insert(scene.resolve(path));
+            if mesh.material.is_none() {
+                self.with_materials.insert(scene.resolve(path));
+            }
+        }
+    }
+
+    /// All of them with their hashes, sorted, relative to `folder`.
+    pub(super) fn hashed(mut self, folder: &Path) -> Result<Vec<Asset>, BatchError> {
+        for mesh in &self.with_materials {
+            self.plain.extend(materials_of(mesh)?);
+        }
+        let asset = |path: PathBuf| {
+            let blake3 = hash(&read(&path)?);
+            Ok(Asset { path: path.strip_prefix(folder).unwrap_or(&path).to_owned(), blake3 })
+        };
+        self.plain.into_iter().map(asset).collect()
+    }
+}
+
+/// Which assets are not what they were, in words.
+pub(super) fn changes(assets: &[Asset], folder: &Path) -> Vec<String> {
+    let changed = |asset: &Asset| match read(&folder.join(&asset.path)) {
+        Ok(bytes) if hash(&bytes) == asset.blake3 => None,
+        Ok(_) => Some(format!("{} has changed since the plan was made", asset.path.display())),
+        Err(error) => Some(error.told()),
+    };
+    assets.iter().filter_map(changed).collect()
+}
+
+/// The material files of an OBJ file and the textures they name.
+fn materials_of(mesh: &Path) -> Result<Vec<PathBuf>, BatchError> {
+    if !mesh.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
+        return Ok(Vec::new());
+    }
+    let text = read(mesh)?;
+    let folder = mesh.parent().unwrap_or(Path::new(""));
+    let mut found: Vec<PathBuf> = words_after(&text, "mtllib").map(|name| folder.join(name)).collect();
+    found.retain(|path| path.is_file());
+    let loaded = crate::load::load_mesh(mesh)?;
+    found.extend(loaded.materials.into_iter().filter_map(|material| material.texture));
+    Ok(found)
+}
+
+/// What follows a key at the beginning of lines.
+fn words_after<'a>(text: &'a [u8], key: &'a str) -> impl Iterator<Item = String> + 'a {
+    text.split(|&byte| byte == b'\n').filter_map(move |line| {
+        let rest = line.trim_ascii().strip_prefix(key.as_bytes())?;
+        rest.first()?.is_ascii_whitespace().then(|| String::from_utf8_lossy(rest.trim_ascii()).into_owned())
+    })
+}
+
+fn read(path: &Path) -> Result<Vec<u8>, BatchError> {
+    std::fs::read(path).map_err(|cause| BatchError::read(path, cause))
+}

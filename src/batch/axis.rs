@@ -1,0 +1,137 @@
+//! Sweeps: values of one axis, and how axes meet.
+
+use std::collections::BTreeMap;
+
+use toml::Value;
+
+use super::job::{Sweep, SweepMode};
+
+/// Most values of a sweep, all axes together.
+const MOST: usize = 10_000_000;
+
+/// One picture's choice: a key and its value for each axis.
+pub(super) type Choice = Vec<(String, Value)>;
+
+/// All choices of a sweep; one without values where there is no axis.
+pub(super) fn choices(axes: &BTreeMap<String, Sweep>, mode: SweepMode) -> Result<Vec<Choice>, String> {
+    let mut columns = Vec::new();
+    for (key, sweep) in axes {
+        let values = values(sweep).map_err(|reason| format!("sweep `{key}`: {reason}"))?;
+        columns.push((key, values));
+    }
+    match mode {
+        SweepMode::Zip if !columns.is_empty() => zip(&columns),
+        _ => product(&columns),
+    }
+}
+
+fn product(columns: &[(&String, Vec<Value>)]) -> Result<Vec<Choice>, String> {
+    let count = columns.iter().try_fold(1usize, |count, (_, values)| count.checked_mul(values.len()));
+    if count.is_none_or(|count| count > MOST) {
+        return Err(format!("the sweep makes more than {MOST} pictures"));
+    }
+    let mut choices: Vec<Choice> = vec![Vec::new()];
+    for (key, values) in columns {
+        let with = |choice: &Choice, value: &Value| {
+            choice.iter().cloned().chain([((*key).clone(), value.clone())]).collect::<Choice>()
+        };
+        choices = choices.iter().flat_map(|c| values.iter().map(move |v| with(c, v))).collect();
+    }
+    Ok(choices)
+}
+
+fn zip(columns: &[(&String, Vec<Value>)]) -> Result<Vec<Choice>, String> {
+    let length = columns[0].1.len();
+    if let Some((key, values)) = columns.iter().find(|(_, values)| values.len() != length) {
+        let (first, other) = (columns[0].0, values.len());
+        return Err(format!(
+            "sweep `{key}` has {other} values and `{first}` {length}: to zip them they must agree"
+        ));
+    }
+    let choice = |i: usize| columns.iter().map(|(key, values)| ((*key).clone(), values[i].clone())).collect();
+    Ok((0..length).map(choice).collect())
+}
+
+fn values(sweep: &Sweep) -> Result<Vec<Value>, String> {
+    let values = match sweep {
+        Sweep::List(values) => values.clone(),
+        Sweep::Range(bounds) => range(bounds)?,
+        Sweep::Linspace([first, last, count]) => linspace(*first, *last, *count)?,
+    };
+    if values.is_empty() { Err("has no values".into()) } else { Ok(values) }
+}
+
+fn linspace(first: f64, last: f64, count: f64) -> Result<Vec<Value>, String> {
+    if count.fract() != 0.0 || !(1.0..=MOST as f64).contains(&count) {
+        return Err(format!("linspace is [first, last, how many], and {count} is no number of values"));
+    }
+    let steps = (count - 1.0).max(1.0);
+    // The last value is the one written, not one that rounding made of it.
+    let at = |k: usize| {
+        if k > 0 && k as f64 == steps { last } else { first + (last - first) * (k as f64 / steps) }
+    };
+    Ok((0..count as usize).map(|k| Value::Float(at(k))).collect())
+}
+
+fn range(bounds: &[Value]) -> Result<Vec<Value>, String> {
+    let usage = || "range is [first, end] or [first, end, step] of numbers, the end left out".to_owned();
+    let (first, end, step) = match bounds {
+        [first, end] => (first, end, &Value::Integer(1)),
+        [first, end, step] => (first, end, step),
+        _ => return Err(usage()),
+    };
+    let number = |value: &Value| value.as_float().or(value.as_integer().map(|i| i as f64)).ok_or_else(usage);
+    let (a, b, s) = (number(first)?, number(end)?, number(step)?);
+    let count = ((b - a) / s).ceil();
+    if s == 0.0 || !count.is_finite() || count > MOST as f64 {
+        return Err(format!("the step {s} does not lead from {a} to {b} within {MOST} values"));
+    }
+    let whole = [first, end, step].iter().all(|value| value.is_integer());
+    let at =
+        |k: i64| if whole { Value::Integer(a as i64 + k * s as i64) } else { Value::Float(a + k as f64 * s) };
+    Ok((0..count.max(0.0) as i64).map(at).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn sweep(text: &str) -> Result<Vec<String>, String> {
+        let sweep: BTreeMap<String, Sweep> = toml::from_str(text).unwrap();
+        let all = choices(&sweep, SweepMode::Product)?;
+        let text = |c: &Choice| c.iter().map(|(_, v)| v.to_string()).collect::<Vec<_>>().join(" ");
+        Ok(all.iter().map(text).collect())
+    }
+
+    #[test]
+    fn axes_give_their_values() {
+        assert_eq!(sweep("a = { linspace = [30, 60, 4] }").unwrap(), ["30.0", "40.0", "50.0", "60.0"]);
+        assert_eq!(sweep("a = { linspace = [1, 9, 1] }").unwrap(), ["1.0"]);
+        assert_eq!(sweep("a = { range = [0, 5, 2] }").unwrap(), ["0", "2", "4"]);
+        assert_eq!(sweep("a = { range = [1, 0, -0.5] }").unwrap(), ["1.0", "0.5"]);
+        assert_eq!(sweep("a = { list = ['x', [1, 2]] }").unwrap(), ["\"x\"", "[1, 2]"]);
+        assert_eq!(sweep("").unwrap(), [""]);
+    }
+
+    #[test]
+    fn the_last_axis_changes_fastest() {
+        let found = sweep("b = { list = [1, 2] }\na = { list = [3, 4] }").unwrap();
+        assert_eq!(found, ["3 1", "3 2", "4 1", "4 2"], "axes in the order of their names");
+    }
+
+    #[test]
+    fn zipped_axes_go_together_or_are_refused() {
+        let axes = |text: &str| choices(&toml::from_str(text).unwrap(), SweepMode::Zip);
+        let found = axes("a = { list = [1, 2] }\nb = { list = [3, 4] }").unwrap();
+        assert_eq!(found[1].iter().map(|(_, v)| v.to_string()).collect::<Vec<_>>(), ["2", "4"]);
+        assert!(axes("a = { list = [1] }\nb = { list = [3, 4] }").unwrap_err().contains("`b` has 2"));
+    }
+
+    #[test]
+    fn bad_axes_are_named() {
+        for text in ["a = { list = [] }", "a = { range = [0, 1, 0] }", "a = { range = [0, 'x'] }"] {
+            assert!(sweep(text).unwrap_err().contains("`a`"), "{text}");
+        }
+        assert!(sweep("a = { linspace = [0, 1, 1.5] }").unwrap_err().contains("1.5"));
+    }
+}

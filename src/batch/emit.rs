@@ -1,0 +1,67 @@
+//! Wrappers for schedulers, to be read and submitted by the user: nothing is submitted here.
+
+use super::Plan;
+
+const SLURM: &str = include_str!("emit/slurm.sh");
+const OPENJD: &str = include_str!("emit/openjd.yaml");
+const K8S: &str = include_str!("emit/k8s.yaml");
+const PARALLEL: &str = include_str!("emit/parallel.sh");
+
+/// A shell script that submits an array job and a merge that runs when all of it has ended, well or not: the merge looks
+/// for itself what is there.
+pub fn slurm(plan: &Plan, path: &str) -> String {
+    filled(SLURM, plan, &quoted(path))
+}
+
+/// An Open Job Description template: a step of shards, and one that merges.
+pub fn openjd(plan: &Plan, path: &str) -> String {
+    filled(OPENJD, plan, &serde_json::Value::from(path).to_string())
+}
+
+/// A Kubernetes Indexed Job; the merge is run when it is complete.
+pub fn k8s(plan: &Plan, path: &str) -> String {
+    filled(K8S, plan, &serde_json::Value::from(path).to_string())
+}
+
+/// A shell script for GNU parallel.
+pub fn parallel(plan: &Plan, path: &str) -> String {
+    filled(PARALLEL, plan, &quoted(path))
+}
+
+fn filled(template: &str, plan: &Plan, path: &str) -> String {
+    let words = [
+        ("@NAME@", plain_name(&plan.name)),
+        ("@SHARDS@", plan.shards.to_string()),
+        ("@LAST@", (plan.shards - 1).to_string()),
+        ("@PLAN@", path.to_owned()),
+    ];
+    words.iter().fold(template.to_owned(), |text, (word, value)| text.replace(word, value))
+}
+
+/// A word as a shell takes it.
+fn quoted(text: &str) -> String {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "-_./".contains(c);
+    match !text.is_empty() && text.chars().all(plain) {
+        true => text.to_owned(),
+        false => format!("'{}'", text.replace('\'', r"'\''")),
+    }
+}
+
+/// A name that schedulers take: small letters, digits and dashes.
+fn plain_name(name: &str) -> String {
+    let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
+    let name: String = name.chars().map(letter).collect();
+    format!("octray-{}", name.trim_matches('-'))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_are_safe_where_they_go() {
+        assert_eq!(quoted("a/b-1.plan"), "a/b-1.plan");
+        assert_eq!(quoted("it's $HOME"), r"'it'\''s $HOME'");
+        assert_eq!(plain_name("My Turn_1"), "octray-my-turn-1");
+    }
+}

@@ -1,0 +1,215 @@
+//! The job file, exactly as written.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use toml::Value;
+
+use super::BatchError;
+use crate::describe::{BuildQuality, Tier};
+use crate::film::Aov;
+
+/// A job, as written. Field names are the keys of the file.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Job {
+    /// Scene file or mesh, relative to the job file, or the name of a built-in scene.
+    pub scene: String,
+    /// Width and height in pixels, in place of the scene's.
+    pub size: Option<[u32; 2]>,
+    /// Samples a pixel, in place of the scene's.
+    pub spp: Option<u32>,
+    /// Most bounces of a path, in place of the scene's.
+    pub max_depth: Option<u32>,
+    /// Seed, in place of the scene's.
+    pub seed: Option<u64>,
+    /// Tier, in place of the scene's.
+    pub tier: Option<Tier>,
+    /// Work that goes into trees, in place of the scene's.
+    pub build_quality: Option<BuildQuality>,
+    /// Frames, such as `1-100` or `1,3,5..9`; one picture without a number if not given.
+    pub frames: Option<String>,
+    /// Values in place of the scene's, by key as for `--set`.
+    #[serde(default)]
+    pub set: BTreeMap<String, Value>,
+    /// Values that change from picture to picture, by key as for `--set`.
+    #[serde(default)]
+    pub sweep: BTreeMap<String, Sweep>,
+    /// Whether every value meets every other one, or each only its fellows of the same place.
+    #[serde(default)]
+    pub sweep_mode: SweepMode,
+    /// `[[camera]]`: every picture is taken by each.
+    #[serde(default)]
+    pub camera: Vec<JobCamera>,
+    /// `[[keyframes]]`: values that change from frame to frame.
+    #[serde(default)]
+    pub keyframes: Vec<Keyframes>,
+    /// `[[output]]`: the files of each picture.
+    pub output: Vec<Output>,
+    /// Folder of the job file: relative paths start here. Not part of the file.
+    #[serde(skip)]
+    pub folder: PathBuf,
+    /// The job file's name without its ending. Not part of the file.
+    #[serde(skip)]
+    pub name: String,
+}
+
+/// The values of one axis of a sweep.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Sweep {
+    /// These.
+    List(Vec<Value>),
+    /// First and end, which is left out, and perhaps a step: as Python's `range`.
+    Range(Vec<Value>),
+    /// First, last and how many, evenly spread.
+    Linspace([f64; 3]),
+}
+
+/// How the axes of a sweep meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum SweepMode {
+    /// Every value of one with every value of the others; the last axis changes fastest.
+    #[default]
+    Product,
+    /// The first values together, the second ones together; all axes are equally long.
+    Zip,
+}
+
+/// One camera.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct JobCamera {
+    /// Its name, for `{camera}` in paths.
+    pub name: String,
+    /// Values in place of the scene's camera, by the camera's keys.
+    #[serde(default)]
+    pub set: BTreeMap<String, Value>,
+}
+
+/// Values of one key at some frames.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Keyframes {
+    /// The key, as for `--set`.
+    pub key: String,
+    /// Frames, ascending.
+    pub frames: Vec<f64>,
+    /// A number or an array of numbers for each.
+    pub values: Vec<Value>,
+    /// What lies between.
+    #[serde(default)]
+    pub interpolation: Interpolation,
+}
+
+/// How values between keyframes are found. Before the first and after the last keyframe its value holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Interpolation {
+    /// Straight lines.
+    #[default]
+    Linear,
+    /// Smooth curves through all values.
+    CatmullRom,
+}
+
+/// One file of each picture.
+#[derive(Clone, Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Output {
+    /// Path below the output folder; `####` is the frame, `{name}`, `{camera}`, `{sweep}` and `{key}` what they say.
+    pub path: String,
+    /// Values beside colour, for EXR.
+    #[serde(default)]
+    pub aovs: Vec<Aov>,
+    /// Write the camera's numbers beside it. Default: where there are AOVs.
+    pub camera_json: Option<bool>,
+}
+
+impl Job {
+    /// The job in a file.
+    ///
+    /// **Errors:** [`BatchError`] with file, line and what was expected.
+    pub fn read(path: &Path) -> Result<Self, BatchError> {
+        let text = std::fs::read_to_string(path).map_err(|cause| BatchError::read(path, cause))?;
+        let mut job = Self::parse(&text, &path.display().to_string())?;
+        job.folder = path.parent().unwrap_or(Path::new("")).to_owned();
+        job.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+        Ok(job)
+    }
+
+    fn parse(text: &str, name: &str) -> Result<Self, BatchError> {
+        let refused = |error: toml::de::Error| {
+            let at = error.span().map_or(0, |span| span.start.min(text.len()));
+            let line = text[..at].matches('\n').count() + 1;
+            BatchError::Job(format!("{name}:{line}: {}", error.to_string().trim_end()))
+        };
+        toml::from_str(text).map_err(refused)
+    }
+
+    /// The settings that apply to all pictures, as `key=value`.
+    pub(super) fn common_sets(&self) -> Vec<String> {
+        let settings = [
+            ("render.size", self.size.map(|[width, height]| format!("[{width}, {height}]"))),
+            ("render.spp", self.spp.map(|spp| spp.to_string())),
+            ("render.max_depth", self.max_depth.map(|depth| depth.to_string())),
+            ("render.seed", self.seed.map(|seed| seed.to_string())),
+            ("render.tier", self.tier.and_then(quoted)),
+            ("render.build_quality", self.build_quality.and_then(quoted)),
+            ("render.aovs", self.aovs()),
+        ];
+        let given = settings.into_iter().filter_map(|(key, value)| Some(format!("{key}={}", value?)));
+        let set = self.set.iter().map(|(key, value)| format!("{key}={value}"));
+        set.chain(given).collect()
+    }
+
+    /// All values beside colour that any output wants.
+    fn aovs(&self) -> Option<String> {
+        let mut wanted: Vec<Aov> = self.output.iter().flat_map(|output| output.aovs.clone()).collect();
+        wanted.sort_unstable();
+        wanted.dedup();
+        let names: Vec<String> = wanted.iter().map(|aov| format!("\"{}\"", aov.name())).collect();
+        (!names.is_empty()).then(|| format!("[{}]", names.join(", ")))
+    }
+}
+
+/// A name as a scene file has it.
+fn quoted(name: impl serde::Serialize) -> Option<String> {
+    Value::try_from(name).ok().map(|name| name.to_string())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn settings_become_changes_to_the_scene() {
+        let job = Job::parse(
+            "scene='seed'\nsize=[4,3]\ntier='exact'\n[set]\n'camera.fov_deg'=3\n[[output]]\npath='a.exr'\naovs=['uv','depth']",
+            "job.toml",
+        );
+        let expected = [
+            "camera.fov_deg=3",
+            "render.size=[4, 3]",
+            "render.tier=\"exact\"",
+            "render.aovs=[\"depth\", \"uv\"]",
+        ];
+        assert_eq!(job.unwrap().common_sets(), expected);
+    }
+
+    #[test]
+    fn errors_name_file_line_and_what_was_expected() {
+        for (text, words) in [
+            ("scene='seed'\nspp='many'\n", ["job.toml:2", "u32"]),
+            ("scene='seed'\nssp=3\n[[output]]\npath='a.exr'", ["job.toml:2", "spp"]),
+            ("scene='seed'\n", ["job.toml:1", "output"]),
+            ("scene='seed'\n[[output]]\npath='a.exr'\naovs=['normal']", ["job.toml:4", "shading_normal"]),
+            ("scene=", ["job.toml:1", ""]),
+        ] {
+            let error = Job::parse(text, "job.toml").unwrap_err().to_string();
+            assert!(words.iter().all(|word| error.contains(word)), "{error}");
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! Plans: pictures cut into numbered units, and units into shards, once and for all.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::assets::{Asset, Files, changes, hash};
+use super::expand::pictures;
+use super::job::Job;
+use super::paths::relative;
+use super::picture::Picture;
+use super::source::Source;
+use super::unit::{Cut, Unit};
+use super::{BatchError, Shard};
+use crate::output::write_atomically;
+
+/// The first words of a plan, with the version of its format.
+const FORMAT: &str = "octray plan 1";
+
+/// More pixels than a scene may have.
+const MOST_PIXELS: u64 = 1 << 28;
+
+/// Most shards of a plan.
+pub const MOST_SHARDS: u32 = 1_000_000;
+
+/// What a unit is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Split {
+    /// A whole picture.
+    #[default]
+    Frames,
+    /// A tile of a picture.
+    Tiles,
+    /// Some samples of all pixels of a picture.
+    Samples,
+}
+
+/// Everything that pictures and their bytes depend on, and how the work is cut.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Plan {
+    /// Format and version.
+    pub format: String,
+    /// Version of octray that made it.
+    pub octray: String,
+    /// Name of the job.
+    pub name: String,
+    /// The job's folder, as seen from the plan's.
+    pub root: PathBuf,
+    /// The scene file relative to `root`, or the name of a built-in scene.
+    pub scene: String,
+    /// BLAKE3 of the scene as text.
+    pub scene_blake3: String,
+    /// All files that the scenes need.
+    pub assets: Vec<Asset>,
+    /// Changes to the scene for all pictures, each `key=value`.
+    pub sets: Vec<String>,
+    /// What a unit is.
+    pub split: Split,
+    /// Number of shards: unit `u` is in shard `u % shards`.
+    pub shards: u32,
+    /// What it will cost.
+    pub cost: Cost,
+    /// The pictures.
+    pub pictures: Vec<Picture>,
+}
+
+/// An estimate of the work.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Cost {
+    /// Pictures.
+    pub pictures: u64,
+    /// Units.
+    pub units: u64,
+    /// Camera samples.
+    pub samples: u64,
+}
+
+impl Plan {
+    /// The plan of a job, for a file in the folder `at`.
+    ///
+    /// **Errors:** a scene that is not valid, naming the picture; assets that cannot be read; two pictures in one file.
+    pub fn of(job: &Job, split: Split, shards: u32, at: &Path) -> Result<Self, BatchError> {
+        let source = Source::read(&job.scene, &job.folder)?;
+        let mut files = Files::default();
+        files.see(source.scene());
+        let mut pictures = pictures(job, &source, &mut files)?;
+        let mut units = 0;
+        for picture in &mut pictures {
+            picture.first_unit = units;
+            picture.units = Cut::of(split, shards, picture).units();
+            units += picture.units;
+        }
+        let samples = pictures.iter().map(Picture::samples).sum();
+        Ok(Self {
+            format: FORMAT.into(),
+            octray: env!("CARGO_PKG_VERSION").into(),
+            name: job.name.clone(),
+            root: relative(&job.folder, at).map_err(|cause| BatchError::read(at, cause))?,
+            scene: job.scene.clone(),
+            scene_blake3: hash(&source.bytes),
+            assets: files.hashed(&job.folder)?,
+            sets: job.common_sets(),
+            split,
+            shards,
+            cost: Cost { pictures: pictures.len() as u64, units, samples },
+            pictures,
+        })
+    }
+
+    /// The plan in a file.
+    ///
+    /// **Errors:** it cannot be read, is no plan, or is one of another version.
+    pub fn read(path: &Path) -> Result<Self, BatchError> {
+        let bytes = std::fs::read(path).map_err(|cause| BatchError::read(path, cause))?;
+        let plan: Self = serde_json::from_slice(&bytes)
+            .map_err(|error| BatchError::damaged(path, format!("is no whole plan: {error}")))?;
+        plan.check().map_err(|reason| BatchError::damaged(path, reason))?;
+        Ok(plan)
+    }
+
+    fn check(&self) -> Result<(), String> {
+        if self.format != FORMAT {
+            return Err(format!("has the format `{}`, expected `{FORMAT}`: make the plan anew", self.format));
+        }
+        if self.octray != env!("CARGO_PKG_VERSION") {
+            let (made, here) = (&self.octray, env!("CARGO_PKG_VERSION"));
+            return Err(format!(
+                "was made by octray {made} and this is {here}: pictures may differ, make the plan anew"
+            ));
+        }
+        if !(1..=MOST_SHARDS).contains(&self.shards) {
+            return Err(format!("is damaged: {} shards", self.shards));
+        }
+        let mut units = 0;
+        for picture in &self.pictures {
+            let pixels = u64::from(picture.size[0]) * u64::from(picture.size[1]);
+            let is_picture = (1..=MOST_PIXELS).contains(&pixels) && picture.spp > 0;
+            if !is_picture || picture.first_unit != units || !picture.has_good_paths() {
+                return Err(format!("is damaged: {} does not fit the others", picture.name));
+            }
+            if picture.units != Cut::of(self.split, self.shards, picture).units() {
+                return Err(format!("is damaged: {} is not cut as the plan says", picture.name));
+            }
+            units += picture.units;
+        }
+        if units != self.cost.units {
+            return Err("is damaged: its units do not add up".into());
+        }
+        Ok(())
+    }
+
+    /// The plan's bytes: the same for the same job.
+    pub fn to_bytes(&self) -> Vec<u8> {
+        let mut bytes = serde_json::to_vec_pretty(self).expect("a plan has only text and numbers");
+        bytes.push(b'\n');
+        bytes
+    }
+
+    /// Writes the plan in one step.
+    ///
+    /// **Errors:** what the system said.
+    pub fn write(&self, path: &Path) -> Result<(), BatchError> {
+        Ok(write_atomically(path, &self.to_bytes())?)
+    }
+
+    /// What identifies the plan, wherever it lies.
+    pub fn identity(&self) -> String {
+        hash(&Self { root: PathBuf::new(), ..self.clone() }.to_bytes())
+    }
+
+    /// Number of units.
+    pub fn units(&self) -> u64 {
+        self.cost.units
+    }
+
+    /// A unit by its number. **Panics** beyond the last.
+    pub fn unit(&self, number: u64) -> Unit {
+        let picture = self.pictures.partition_point(|p| p.first_unit <= number) - 1;
+        let found = &self.pictures[picture];
+        Cut::of(self.split, self.shards, found).unit(number, picture, number - found.first_unit)
+    }
+
+    /// Units of a shard, or all.
+    pub fn units_of(&self, shard: Option<Shard>) -> impl Iterator<Item = u64> + use<> {
+        let (first, step) = shard.map_or((0, 1), |shard| (u64::from(shard.index), u64::from(self.shards)));
+        (first..self.units()).step_by(step as usize)
+    }
+
+    /// Fails if the scene or an asset is not what it was; `folder` is that of the plan.
+    pub fn check_sources(&self, folder: &Path) -> Result<(), BatchError> {
+        let root = folder.join(&self.root);
+        let source = Source::read(&self.scene, &root)?;
+        let mut changed = changes(&self.assets, &root);
+        if hash(&source.bytes) != self.scene_blake3 {
+            changed.insert(0, format!("the scene {} has changed since the plan was made", self.scene));
+        }
+        if changed.is_empty() { Ok(()) } else { Err(BatchError::Changed(changed)) }
+    }
+
+    /// In what this plan differs from one that was begun, in words.
+    pub fn differences(&self, begun: &Self) -> Vec<String> {
+        let mut found = Vec::new();
+        let mut note = |what: &str, was: String, is: String| {
+            if was != is {
+                found.push(format!("{what} was {was} and is {is}"));
+            }
+        };
+        note("octray", begun.octray.clone(), self.octray.clone());
+        note("the scene", begun.scene.clone(), self.scene.clone());
+        note("the split", format!("{:?}", begun.split), format!("{:?}", self.split));
+        note("the number of shards", begun.shards.to_string(), self.shards.to_string());
+        note("the number of pictures", begun.pictures.len().to_string(), self.pictures.len().to_string());
+        note("the settings", begun.sets.join(" "), self.sets.join(" "));
+        if self.scene == begun.scene && self.scene_blake3 != begun.scene_blake3 {
+            found.push(format!("the scene {} has changed", self.scene));
+        }
+        for asset in self.assets.iter().filter(|asset| !begun.assets.contains(asset)) {
+            found.push(format!("{} has changed", asset.path.display()));
+        }
+        let pair = self.pictures.iter().zip(&begun.pictures).find(|(is, was)| is != was);
+        if let Some((is, was)) = pair.filter(|_| found.is_empty()) {
+            found.push(picture_difference(is, was));
+        }
+        found
+    }
+}
+
+fn picture_difference(is: &Picture, was: &Picture) -> String {
+    let paths = |p: &Picture| p.outputs.iter().map(|o| o.path.clone()).collect::<Vec<_>>().join(" ");
+    let of = |p: &Picture| format!("{} ({}) in {}", p.name, p.sets.join(" "), paths(p));
+    format!("{} was {}", of(is), of(was))
+}

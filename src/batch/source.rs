@@ -1,0 +1,72 @@
+//! The scene that a job is about, read once.
+
+use std::path::{Path, PathBuf};
+
+use super::BatchError;
+use crate::describe::{self, SceneDescription};
+use crate::load::load_mesh;
+use crate::scene::Scene;
+
+/// Endings of meshes, which a scene is framed around.
+const MESHES: [&str; 3] = ["obj", "ply", "stl"];
+
+/// A scene before the changes that pictures make to it.
+pub(super) struct Source {
+    name: String,
+    scene: SceneDescription,
+    /// The scene file, mesh, or the built-in scene written out.
+    pub(super) bytes: Vec<u8>,
+}
+
+/// Whether a scene's name is that of a file: it has a dot or a path separator in it.
+pub(super) fn is_file(name: &str) -> bool {
+    name.contains('.') || name.contains(std::path::is_separator)
+}
+
+impl Source {
+    /// Reads a scene file or mesh relative to `folder`, or a built-in scene.
+    pub(super) fn read(name: &str, folder: &Path) -> Result<Self, BatchError> {
+        if !is_file(name) {
+            let scene = describe::builtin(name)?
+                .ok_or_else(|| BatchError::Job(format!("there is no built-in scene `{name}`")))?;
+            let bytes = scene.to_toml().into_bytes();
+            return Ok(Self { name: name.to_owned(), scene, bytes });
+        }
+        let path = folder.join(name);
+        let bytes = std::fs::read(&path).map_err(|cause| BatchError::read(&path, cause))?;
+        let scene = if is_mesh(&path) { framed(&path)? } else { describe::read(&path)? };
+        Ok(Self { name: name.to_owned(), scene, bytes })
+    }
+
+    /// The scene of one picture.
+    pub(super) fn with(&self, sets: &[String]) -> Result<SceneDescription, describe::DescribeError> {
+        self.scene.clone().amended(&self.name, sets)
+    }
+
+    /// Camera and settings of one picture, without its objects: nothing is loaded or built.
+    pub(super) fn view(&self, sets: &[String]) -> Result<Scene, BatchError> {
+        let described = self.with(sets)?;
+        let mut view = SceneDescription::new(described.camera);
+        view.render = described.render;
+        Ok(Scene::compile(&view)?)
+    }
+
+    /// The scene as written.
+    pub(super) fn scene(&self) -> &SceneDescription {
+        &self.scene
+    }
+}
+
+fn is_mesh(path: &Path) -> bool {
+    path.extension().is_some_and(|e| MESHES.contains(&e.to_string_lossy().to_lowercase().as_str()))
+}
+
+fn framed(path: &Path) -> Result<SceneDescription, BatchError> {
+    let bounds = load_mesh(path)?.bounds();
+    let bounds =
+        bounds.ok_or_else(|| BatchError::Job(format!("{}: has no triangle with an area", path.display())))?;
+    let name = PathBuf::from(path.file_name().unwrap_or_default());
+    let mut scene = describe::framed_mesh(&name, bounds.map(|corner| corner.map(f64::from)));
+    scene.folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    Ok(scene)
+}

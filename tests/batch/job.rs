@@ -1,0 +1,136 @@
+//! The job file and the plan.
+
+use super::{SMALL, done, fails, folder, pictures};
+
+#[test]
+fn bad_jobs_name_the_file_the_line_and_what_was_expected() {
+    let output = "[[output]]\npath = \"a.png\"\n";
+    for (job, words) in [
+        ("scene = \"seed\"\nspp = \"many\"\n", &["turn.toml:2", "u32"][..]),
+        ("scene = \"seed\"\nssp = 3\n", &["turn.toml:2", "ssp", "spp"]),
+        ("scene = \"sed\"\n", &["`sed`"]),
+        ("scene = \"none.toml\"\n", &["none.toml"]),
+        ("scene = \"seed\"\nframes = \"5-1\"\n", &["frames", "5-1", "backwards"]),
+        ("scene = \"seed\"\n[set]\n\"camera.fov\" = 3\n", &["camera.fov=3", "fov_deg"]),
+        ("scene = \"seed\"\n[sweep]\n\"render.spp\" = { list = [1, 2] }\n", &["a.png", "{key}"]),
+        ("scene = \"seed\"\n[sweep]\n\"render.spp\" = { list = [0] }\n", &["render.spp = 0", "spp"]),
+        ("scene = \"seed\"\n[sweep]\n\"render.spp\" = { lst = [1] }\n", &["turn.toml:3", "lst", "linspace"]),
+        (
+            "scene = \"seed\"\n[[keyframes]]\nkey = \"render.spp\"\nframes = [1]\nvalues = [1]\n",
+            &["need `frames`"],
+        ),
+    ] {
+        let folder = folder(&format!("{job}{output}"));
+        fails(folder.path(), "plan turn.toml", 3, words);
+        assert!(!folder.path().join("turn.plan").exists());
+    }
+    for (path, aovs, words) in [
+        ("../a.png", "", "below the output folder"),
+        ("/a.png", "", "below the output folder"),
+        ("a.jpg", "", "exr"),
+        ("a.png", "aovs = [\"depth\"]\n", "exr"),
+        ("{cam}.png", "", "{name}"),
+    ] {
+        let folder = folder(&format!("scene = \"seed\"\n[[output]]\npath = \"{path}\"\n{aovs}"));
+        fails(folder.path(), "plan turn.toml", 3, &[path, words]);
+    }
+}
+
+#[test]
+fn the_same_job_has_the_same_plan_bytes() {
+    let folders = [folder(SMALL), folder(SMALL)];
+    let plans = folders.each_ref().map(|folder| {
+        done(folder.path(), "plan turn.toml --shards 3 --split tiles");
+        std::fs::read(folder.path().join("turn.plan")).unwrap()
+    });
+    assert!(plans[0] == plans[1]);
+    let plan: serde_json::Value = serde_json::from_slice(&plans[0]).unwrap();
+    assert_eq!(plan["cost"]["samples"], 4 * 70 * 40 * 40);
+}
+
+#[test]
+fn a_plan_elsewhere_finds_its_scene_and_can_be_moved_with_it() {
+    let folder = folder("scene = \"../scenes/s.toml\"\nsize = [8, 6]\n[[output]]\npath = \"a.png\"\n");
+    let path = folder.path();
+    for made in ["p/jobs", "p/scenes", "p/plans"] {
+        std::fs::create_dir_all(path.join(made)).unwrap();
+    }
+    std::fs::rename(path.join("turn.toml"), path.join("p/jobs/turn.toml")).unwrap();
+    std::fs::write(path.join("p/scenes/s.toml"), "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n")
+        .unwrap();
+    done(path, "plan p/jobs/turn.toml -o p/plans/turn.plan");
+    std::fs::rename(path.join("p"), path.join("q")).unwrap();
+    done(path, "run q/plans/turn.plan -o out");
+    assert!(path.join("out/a.png").exists());
+}
+
+#[test]
+fn sweeps_cameras_and_frames_meet() {
+    let job = r#"
+        scene = "seed"
+        size = [8, 6]
+        spp = 1
+        frames = "1,5..6"
+        sweep_mode = "zip"
+        [sweep]
+        "material.glass.ior" = { list = [1.2, 1.4] }
+        "render.seed" = { range = [0, 2] }
+        [[camera]]
+        name = "left"
+        set = { position = [-4, 2, -8] }
+        [[camera]]
+        name = "right"
+        [[output]]
+        path = "{camera}/{material.glass.ior}-{sweep}.#.png"
+        camera_json = true
+    "#;
+    let folder = folder(job);
+    done(folder.path(), "batch turn.toml -o out");
+    let found = pictures(&folder.path().join("out"));
+    let pictures: Vec<&String> = found.keys().filter(|name| name.ends_with(".png")).collect();
+    assert_eq!(pictures.len(), 2 * 2 * 3);
+    assert!(found.contains_key("left/1.2-0000.5.png") && found.contains_key("right/1.4-0001.6.camera.json"));
+    assert!(found["left/1.2-0000.1.png"] != found["right/1.2-0000.1.png"]);
+    assert!(found["left/1.2-0000.1.png"] != found["left/1.4-0001.1.png"]);
+    assert!(found["left/1.2-0000.1.png"] == found["left/1.2-0000.5.png"], "no frame is different here");
+}
+
+#[test]
+fn keyframes_are_the_values_of_single_renders() {
+    let job = "scene = \"seed\"\nsize = [20, 15]\nspp = 1\nframes = \"2-3\"\n[[keyframes]]\nkey = \"camera.position\"\n\
+        frames = [1, 5]\nvalues = [[-2, 2, -8], [2, 2, -8]]\n[[output]]\npath = \"a.#.png\"\n";
+    let folder = folder(job);
+    done(folder.path(), "batch turn.toml");
+    done(folder.path(), "render seed --size 20x15 --spp 1 --set camera.position=[-1.0,2.0,-8.0] -o one.png");
+    let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
+    assert!(bytes("a.2.png") == bytes("one.png") && bytes("a.3.png") != bytes("one.png"));
+}
+
+#[test]
+fn wrappers_name_the_plan_and_every_shard() {
+    let folder = folder(SMALL);
+    for (wrapper, words) in [
+        (
+            "slurm",
+            &[
+                "--array=0-7",
+                "--requeue",
+                "--open-mode=append",
+                "--signal=B:USR1@30",
+                "exec octray run turn.plan --shard auto",
+                "afterany",
+                "exec octray merge turn.plan",
+            ][..],
+        ),
+        ("openjd", &["jobtemplate-2023-09", "0-7", "/8", "dependsOn"]),
+        ("k8s", &["completionMode: Indexed", "completions: 8", "[2, 3]"]),
+        ("parallel", &["seq 0 7", "{}/8", "octray merge turn.plan"]),
+    ] {
+        let text = done(folder.path(), &format!("plan turn.toml --shards 8 --emit {wrapper}"));
+        for word in words {
+            assert!(text.contains(word), "{wrapper}: `{word}` is not in:\n{text}");
+        }
+        let unfilled = ["@NAME@", "@PLAN@", "@SHARDS@", "@LAST@"].iter().any(|word| text.contains(word));
+        assert!(!unfilled, "{text}");
+    }
+}

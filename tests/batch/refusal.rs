@@ -1,0 +1,145 @@
+//! Files that are not what they should be are named and refused.
+
+use std::fs;
+use std::path::{Path, PathBuf};
+
+use super::{SMALL, done, fails, folder};
+
+const MESH: &str = "v -1 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n";
+
+/// A scene file with a mesh file.
+fn with_mesh() -> tempfile::TempDir {
+    let folder = folder(
+        "scene = \"scene.toml\"\nsize = [32, 24]\nspp = 2\nframes = \"1-2\"\n[[output]]\npath = \"a.#.png\"\n",
+    );
+    fs::write(folder.path().join("mesh.obj"), MESH).unwrap();
+    let scene = "[camera]\nposition = [0, 1, 5]\nlook_at = [0, 0, 0]\n[[mesh]]\npath = \"mesh.obj\"\n";
+    fs::write(folder.path().join("scene.toml"), scene).unwrap();
+    folder
+}
+
+fn append(path: &Path, text: &str) {
+    let old = fs::read_to_string(path).unwrap();
+    fs::write(path, old + text).unwrap();
+}
+
+fn state(folder: &Path, file: &str) -> PathBuf {
+    folder.join("turn.octray").join(file)
+}
+
+#[test]
+fn a_changed_scene_or_asset_is_named() {
+    for (file, more) in [("mesh.obj", "v 9 9 9\n"), ("scene.toml", "[render]\nspp = 3\n")] {
+        let folder = with_mesh();
+        let path = folder.path();
+        done(path, "plan turn.toml");
+        append(&path.join(file), more);
+        fails(path, "run turn.plan", 3, &[file, "has changed since the plan was made"]);
+        fails(path, "merge turn.plan --partial", 3, &[file, "has changed"]);
+    }
+    let folder = with_mesh();
+    done(folder.path(), "plan turn.toml");
+    fs::remove_file(folder.path().join("mesh.obj")).unwrap();
+    fails(folder.path(), "run turn.plan", 3, &["mesh.obj"]);
+}
+
+#[test]
+fn a_changed_job_does_not_mix_with_finished_work() {
+    let folder = with_mesh();
+    let path = folder.path();
+    done(path, "batch turn.toml");
+    append(&path.join("mesh.obj"), "v 9 9 9\n");
+    fails(path, "batch turn.toml", 3, &["begun with another plan", "mesh.obj has changed", "--force"]);
+    done(path, "batch turn.toml --force");
+    let job = fs::read_to_string(path.join("turn.toml")).unwrap();
+    fs::write(path.join("turn.toml"), job.replace("spp = 2", "spp = 3")).unwrap();
+    fails(path, "batch turn.toml", 3, &["settings", "render.spp=2", "render.spp=3"]);
+    fs::write(path.join("turn.toml"), job.replace("1-2", "1-3")).unwrap();
+    fails(path, "batch turn.toml", 3, &["number of pictures was 2 and is 3"]);
+}
+
+#[test]
+fn damaged_and_foreign_plans_are_refused() {
+    let folder = folder(SMALL);
+    let path = folder.path();
+    done(path, "plan turn.toml");
+    let plan = fs::read_to_string(path.join("turn.plan")).unwrap();
+    let cases = [
+        (plan[..plan.len() / 2].to_owned(), "no whole plan"),
+        (String::new(), "no whole plan"),
+        ("{}".to_owned(), "missing field"),
+        (plan.replace("octray plan 1", "octray plan 9"), "octray plan 9"),
+        (plan.replace("\"octray\": \"", "\"octray\": \"0.0.0-"), "was made by octray 0.0.0-"),
+        (plan.replacen("\"units\": 1", "\"units\": 2", 1), "damaged"),
+        (plan.replace("\"shards\": 1", "\"shards\": 0"), "damaged"),
+        (plan.replace("\"spp\"", "\"ssp\""), "ssp"),
+        (plan.replace("turn.0002.png", "../turn.png"), "damaged"),
+        (plan.replace("        70,", "        70000000,"), "damaged"),
+    ];
+    for (text, words) in cases {
+        fs::write(path.join("bad.plan"), text).unwrap();
+        for verb in ["run", "merge", "status"] {
+            fails(path, &format!("{verb} bad.plan"), 3, &["bad.plan", words]);
+        }
+    }
+    fails(path, "run missing.plan", 3, &["missing.plan"]);
+}
+
+#[test]
+fn damaged_and_foreign_records_are_refused() {
+    let folder = folder(SMALL);
+    let path = folder.path();
+    done(path, "plan turn.toml");
+    done(path, "run turn.plan");
+    let record = state(path, "0000/0000001.json");
+    let whole = fs::read_to_string(&record).unwrap();
+    let other = fs::read_to_string(state(path, "0000/0000002.json")).unwrap();
+    let foreign = whole.replacen("\"plan\": \"", "\"plan\": \"0", 1);
+    for (text, word) in
+        [(&whole[..20], "no whole record"), (&other, "unit 2, not 1"), (&foreign, "another plan")]
+    {
+        fs::write(&record, text).unwrap();
+        for verb in ["run", "merge", "status"] {
+            fails(path, &format!("{verb} turn.plan"), 3, &["0000001.json", word]);
+        }
+    }
+    done(path, "run turn.plan --force");
+    fs::write(state(path, "plan.json"), "{").unwrap();
+    fails(path, "run turn.plan", 3, &["plan.json", "no whole plan"]);
+}
+
+#[test]
+fn pictures_and_sums_that_are_not_what_was_written_are_found() {
+    let folder = folder(SMALL);
+    let path = folder.path();
+    for split in ["frames", "samples"] {
+        done(path, &format!("plan turn.toml --split {split}"));
+        done(path, "run turn.plan --force");
+        let file =
+            if split == "frames" { path.join("turn.0002.png") } else { state(path, "0000/0000001.sums") };
+        let name = file.file_name().unwrap().to_str().unwrap();
+        let whole = fs::read(&file).unwrap();
+        fs::write(&file, &whole[..whole.len() / 2]).unwrap();
+        fails(path, "merge turn.plan", 3, &[name, "bytes"]);
+        let mut flipped = whole.clone();
+        flipped[whole.len() / 2] ^= 1;
+        fs::write(&file, flipped).unwrap();
+        fails(path, "merge turn.plan", 3, &[name, "not what was written"]);
+    }
+}
+
+#[test]
+fn damaged_checkpoints_are_refused_and_the_rest_goes_on() {
+    let folder = folder(SMALL);
+    let path = folder.path();
+    done(path, "plan turn.toml");
+    fs::create_dir_all(state(path, "0000")).unwrap();
+    let checkpoint = state(path, "0000/0000001.checkpoint");
+    for text in ["", "octray part 1\n{}\n", "something else"] {
+        fs::write(&checkpoint, text).unwrap();
+        fails(path, "run turn.plan", 1, &["0000001.checkpoint", "frame 2", "1 of 4 units failed"]);
+        assert!(path.join("turn.0004.png").exists());
+    }
+    fs::remove_file(checkpoint).unwrap();
+    done(path, "run turn.plan");
+}
