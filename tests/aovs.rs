@@ -203,3 +203,17 @@ fn formats_without_room_for_values_are_refused_before_rendering() {
     let output = octray(folder.path(), &["render", "-o", "a.exr", "--aovs", "normal"]);
     assert_eq!(output.status.code(), Some(2));
 }
+
+/// With a goal pixels differ in their samples: the plane holds those of each, which are all that were taken.
+#[test]
+fn sample_counts_are_those_of_each_pixel() {
+    let folder = TempDir::new().unwrap();
+    let film =
+        rendered(folder.path(), &["--aovs", "sample_count,depth", "--max-error", "0.01", "--spp", "64"]);
+    let Some(PlaneValues::Uint(counts)) = film.plane("samples.count") else { panic!("no counts") };
+    assert!(counts.iter().all(|count| (16..=64).contains(count)));
+    assert!(counts.iter().any(|&count| count < 64) && counts.iter().any(|count| count != &counts[0]));
+    let plain = rendered(folder.path(), &["--aovs", "sample_count,depth"]);
+    assert_eq!(plain.plane("samples.count"), Some(&PlaneValues::Uint(vec![4; counts.len()])));
+    assert_eq!(plain.plane("depth.Z"), film.plane("depth.Z"));
+}
