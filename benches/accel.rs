@@ -3,6 +3,9 @@
 //! Scenes: a terrain (many small triangles, one surface) and a soup of spheres (overlapping, seen through each other).
 //! Coherent rays come from a pinhole, eight neighbours of a row a packet; incoherent ones go anywhere.
 
+mod common;
+
+use common::terrain_columns;
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use octray::accel::{Accel, Hint, Quality, RayScene, RaySceneBuilder, Traversal, brute};
 use octray::geometry::{Geometry, Group, NO_MATERIAL};
@@ -36,16 +39,6 @@ fn hills() -> Scenery {
     let mesh = terrain(TRIANGLES, 0, false);
     let scene = RaySceneBuilder::new().mesh(&mesh.positions, &mesh.triangles).expect("a sound mesh").build();
     Scenery { name: "terrain", geometry: terrain_columns(TRIANGLES), scene, eye: [0.0, 1.2, -2.0] }
-}
-
-fn terrain_columns(triangles: u64) -> Geometry {
-    let mesh = terrain(triangles, 0, false);
-    let mut g = Geometry::default();
-    g.triangles.position = std::array::from_fn(|k| mesh.positions.iter().map(|p| p[k]).collect());
-    g.triangles.vertex = std::array::from_fn(|k| mesh.triangles.iter().map(|t| t[k]).collect());
-    g.triangles.material = vec![NO_MATERIAL; mesh.triangles.len()];
-    g.groups = vec![Group { triangles: 0..mesh.triangles.len(), ..Group::default() }];
-    g
 }
 
 fn soup() -> Scenery {

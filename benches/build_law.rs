@@ -3,27 +3,19 @@
 //!
 //! `cargo bench --bench build_law` (some minutes, 3 GiB); a number after `--` is the greatest size.
 
+mod common;
+
+use common::terrain_columns;
 use octray::accel::visits::Visits;
 use octray::accel::{Accel, Quality};
-use octray::geometry::{Geometry, Group, NO_MATERIAL};
+use octray::geometry::Geometry;
 use octray::intersect::Ray;
-use octray::load::terrain;
 use octray::sampling::{pcg4d, unit};
 use std::time::{Duration, Instant};
 
 const RAYS: u32 = 10_000;
 /// Each tree is built this often, and the quickest counts.
 const BUILDS: usize = 3;
-
-fn columns(triangles: u64) -> Geometry {
-    let mesh = terrain(triangles, 0, false);
-    let mut g = Geometry::default();
-    g.triangles.position = std::array::from_fn(|k| mesh.positions.iter().map(|p| p[k]).collect());
-    g.triangles.vertex = std::array::from_fn(|k| mesh.triangles.iter().map(|t| t[k]).collect());
-    g.triangles.material = vec![NO_MATERIAL; mesh.triangles.len()];
-    g.groups = vec![Group { triangles: 0..mesh.triangles.len(), ..Group::default() }];
-    g
-}
 
 /// From anywhere above the terrain to anywhere in it.
 fn visits(accel: &Accel) -> Visits {
@@ -75,7 +67,7 @@ fn main() {
     println!("{} threads", rayon::current_num_threads());
     println!("triangles   quality         ms   Mtris/s  B/prim     fill    nodes   blocks");
     let sizes = (3..=9).map(|power| 10_u64.pow(power)).take_while(|&size| size <= greatest);
-    for geometry in sizes.map(columns) {
+    for geometry in sizes.map(terrain_columns) {
         let [fast, balanced, high] =
             [Quality::Fast, Quality::Balanced, Quality::High].map(|quality| line(&geometry, quality));
         assert!(fast == balanced && balanced == high && fast > 0, "all trees give the same hits");

@@ -10,7 +10,6 @@ mod aov;
 mod connect;
 mod emit;
 mod extend;
-
 mod generate;
 mod medium;
 mod offset;

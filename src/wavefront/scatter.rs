@@ -155,7 +155,8 @@ fn dielectric<T: Tier>(
 
     let reflected = s.weight * reflectance;
     let lanes = s.lanes & reflected.max_component().ge(least).bits();
-    next.push(&s.leaving(s.mirrored(), reflected, Side::Same, paths), lanes);
+    let back = PathLanes { medium: near, ..s.leaving(s.mirrored(), reflected, Side::Same, paths) };
+    next.push(&back, lanes);
     worker.rays.reflected += u64::from(lanes.count_ones());
 
     let (direction, total) = refract(s.direction, s.shading_normal, eta);

@@ -89,10 +89,15 @@ impl World<'_> {
             MaterialKind::Metal => add(local, mul(tint, self.radiance(point, mirrored, depth + 1, bodies))),
             MaterialKind::Dielectric => {
                 let body = hit.material.unwrap();
-                let (share, refracted, beyond) = self.split(direction, normal, bodies, body, inside);
+                let mut near = bodies.to_vec();
+                // A ray that comes out of a body it never entered started inside of it.
+                if inside && !near.contains(&body) {
+                    near.push(body);
+                }
+                let (share, refracted, beyond) = self.split(direction, normal, &near, body, inside);
                 let mut passed = V::default();
                 if share > 0.0 {
-                    passed = scale(self.radiance(point, mirrored, depth + 1, bodies), share);
+                    passed = scale(self.radiance(point, mirrored, depth + 1, &near), share);
                 }
                 if let Some(way) = refracted {
                     let seen = self.radiance(point, way, depth + 1, &beyond);
@@ -108,22 +113,17 @@ impl World<'_> {
         &self,
         direction: V,
         normal: V,
-        bodies: &[usize],
+        near: &[usize],
         body: usize,
         inside: bool,
     ) -> (f64, Option<V>, Vec<usize>) {
-        let mut near = bodies.to_vec();
-        // A ray that comes out of a body it never entered started inside of it.
-        if inside && !near.contains(&body) {
-            near.push(body);
-        }
-        let mut beyond = near.clone();
+        let mut beyond = near.to_vec();
         match near.iter().rposition(|&b| b == body) {
             Some(at) if inside => drop(beyond.remove(at)),
             _ => beyond.push(body),
         }
         let index = |bodies: &[usize]| bodies.last().map_or(1.0, |&b| self.scene.material[b].ior);
-        let (from, to) = (index(&near), index(&beyond));
+        let (from, to) = (index(near), index(&beyond));
         // Snell by the part of the direction that runs along the surface.
         let along = add(direction, scale(normal, -dot(direction, normal)));
         let sideways = scale(along, from / to);

@@ -132,3 +132,12 @@ fn water_in_glass_counts_each_boundary_once() {
         expect(&scene, 4, outer * outer * inner * inner, &format!("{degrees} degrees"));
     }
 }
+
+/// The eye is in glass that no ray was seen to enter; what the glass reflects is still in glass when it meets water.
+#[test]
+fn what_glass_reflects_inwards_stays_in_it() {
+    let (glass, water) = (across(0.0, -1.0, "glass"), across(3.0, -1.0, "water"));
+    let eye = camera([0.1, 0.2, 1.0], [0.1, 0.2, 0.0]);
+    let scene = format!("{eye}{MATERIALS}{glass}{water}{}", across(5.0, -1.0, "lamp"));
+    expect(&scene, 2, fresnel(0.0, 1.5, 1.0) * (1.0 - fresnel(0.0, 1.5, 1.33)), "by way of the water");
+}
