@@ -73,10 +73,10 @@ impl Costs {
     /// A leaf, for all rays of a packet.
     const LEAF: i32 = 150;
     /// A node and a leaf, for a ray alone.
-    const ONE_IN_NODE: i32 = 15;
+    const ONE_IN_NODE: i32 = 11;
     const ONE_IN_LEAF: i32 = 12;
     /// Starting eight rays, each alone.
-    const START: i32 = 250;
+    const START: i32 = 180;
 
     fn of(octant: Octant) -> Self {
         Self { node: if octant.shared { 21 } else { 45 } }

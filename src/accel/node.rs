@@ -25,6 +25,10 @@ impl Node8 {
         child: [ChildRef::EMPTY; WIDTH],
     };
 
+    /// For an octant of directions, where the columns of planes that its rays meet first start, by axis, and then of
+    /// those that they meet last: in bytes from the start of a node.
+    pub(super) const PLANES: [[u8; 6]; WIDTH] = planes_by_octant();
+
     /// The box of a slot.
     pub fn bounds(&self, slot: usize) -> Aabb {
         Aabb { min: self.lo.map(|row| row[slot]), max: self.hi.map(|row| row[slot]) }
@@ -37,6 +41,23 @@ impl Node8 {
             self.hi[k][slot] = bounds.max[k];
         }
     }
+}
+
+const fn planes_by_octant() -> [[u8; 6]; WIDTH] {
+    let column = size_of::<[f32; WIDTH]>();
+    let mut planes = [[0; 6]; WIDTH];
+    let mut octant = 0;
+    while octant < WIDTH {
+        let mut axis = 0;
+        while axis < 3 {
+            let backward = octant >> axis & 1;
+            planes[octant][axis] = (column * (axis + 3 * backward)) as u8;
+            planes[octant][axis + 3] = (column * (axis + 3 * (1 - backward))) as u8;
+            axis += 1;
+        }
+        octant += 1;
+    }
+    planes
 }
 
 /// Where a slot of a node leads: to a node, to a leaf of some kind of primitive, or nowhere.

@@ -29,23 +29,39 @@ const fn orders() -> [[u32; 256]; WIDTH] {
     table
 }
 
+/// An order of up to eight lanes.
+#[derive(Clone, Copy)]
+pub(super) struct Order(u32);
+
+impl Order {
+    /// The lanes from the first on; those beyond the ones chosen mean nothing, and neither do the higher bits of each.
+    #[inline(always)]
+    pub(super) fn lanes(self) -> u32x8 {
+        lanes(self.0)
+    }
+    /// The last of `count` lanes; any lane if there are none.
+    #[inline(always)]
+    pub(super) fn last(self, count: u32) -> usize {
+        (self.0 >> (4 * count.wrapping_sub(1) & 31)) as usize & 7
+    }
+}
+
 #[inline(always)]
 fn lanes(order: u32) -> u32x8 {
     u32x8::splat(order) >> u32x8::new([0, 4, 8, 12, 16, 20, 24, 28])
 }
 
-/// The chosen children of a node, the last that a ray of an octant visits first. **Needs:** lanes below 256; lanes beyond
-/// those chosen mean nothing, and neither do the higher bits of each.
+/// The chosen children of a node, the last that a ray of an octant visits first. **Needs:** lanes below 256.
 #[inline(always)]
-pub(super) fn far_first(octant: u32, chosen: u32) -> u32x8 {
-    lanes(ORDER[octant as usize & 7][chosen as usize & 0xff])
+pub(super) fn far_first(octant: u32, chosen: u32) -> Order {
+    Order(ORDER[octant as usize & 7][chosen as usize & 0xff])
 }
 
 /// The chosen lanes, ascending.
 #[inline(always)]
 pub(super) fn ascending(chosen: u32) -> u32x8 {
     // The last octant's last child stands in the first slot.
-    far_first(7, chosen)
+    far_first(7, chosen).lanes()
 }
 
 #[cfg(test)]
@@ -57,8 +73,17 @@ mod tests {
         for octant in 0..WIDTH as u32 {
             for chosen in 0..256u32 {
                 let expected = (0..8).rev().map(|i| i ^ octant).filter(|slot| chosen >> slot & 1 != 0);
-                let order = far_first(octant, chosen).to_array();
-                assert!(expected.zip(order).all(|(slot, lane)| slot == lane & 7), "{octant} {chosen:#b}");
+                let order = far_first(octant, chosen);
+                let lanes = order.lanes().to_array();
+                assert!(
+                    expected.clone().zip(lanes).all(|(slot, lane)| slot == lane & 7),
+                    "{octant} {chosen:#b}"
+                );
+                let last = expected.last().map(|slot| slot as usize);
+                assert!(
+                    last.is_none_or(|last| last == order.last(chosen.count_ones())),
+                    "{octant} {chosen:#b}"
+                );
             }
         }
     }

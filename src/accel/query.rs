@@ -53,6 +53,20 @@ impl<L: Lane> Closest<L> {
         Self { t: t_max, u: zero, v: zero, prim: none, instance: none, current_instance: 0, limit: t_max }
     }
 
+    /// What lane `i` asks, and what it found so far, as a question of its own.
+    #[inline(always)]
+    pub fn get(&self, i: usize) -> Closest<L::Scalar> {
+        Closest {
+            t: self.t.get(i),
+            u: self.u.get(i),
+            v: self.v.get(i),
+            prim: self.prim.get(i),
+            instance: self.instance.get(i),
+            current_instance: 0,
+            limit: self.limit.get(i),
+        }
+    }
+
     /// Lanes that tie with the hit they hold and win by the lower id.
     #[cold]
     fn winning_ties(&self, ties: L::Mask, ids: L::Bits) -> L::Mask {
@@ -150,6 +164,12 @@ impl<L: Lane> AnyHit<L> {
     pub fn new(t_max: L) -> Self {
         let asked = t_max.gt(L::constant(f64::NEG_INFINITY));
         Self { limit: t_max, asked, hit: L::Mask::splat(false) }
+    }
+    /// What lane `i` asks as a question of its own.
+    #[inline(always)]
+    pub fn get(&self, i: usize) -> AnyHit<L::Scalar> {
+        let bit = |mask: L::Mask| mask.bits() >> i & 1 != 0;
+        AnyHit { limit: self.limit.get(i), asked: bit(self.asked), hit: bit(self.hit) }
     }
     /// Lanes that hit something.
     #[inline(always)]

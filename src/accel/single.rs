@@ -37,7 +37,7 @@ impl Descend for PrimitivesByRay {
     }
     #[inline(always)]
     fn reaching(entry: &Entry, limit: f32x8) -> u32 {
-        u32::from(entry.near <= Lane::get(limit, 0))
+        u32::from(entry.near <= Lane::get(&limit, 0))
     }
 
     #[inline(always)]

@@ -42,6 +42,13 @@ impl Pace {
         self.rest -= u32::from(!tries);
         tries
     }
+    /// True if none of so many packets is to go together; they count as rest.
+    #[inline(always)]
+    fn rests(&mut self, packets: u32) -> bool {
+        let rests = self.rest >= packets;
+        self.rest -= if rests { packets } else { 0 };
+        rests
+    }
     /// Takes note of what the last packet saved by going together.
     #[inline(always)]
     fn learn(&mut self, saved: i32) {
@@ -119,6 +126,17 @@ impl<'a> Traversal<'a> {
         let stack = &mut self.packet_stack;
         let saved = descend::<T, RaysByPrimitive, _>(accel, world.node, &rays, query, stack);
         self.pace.learn(saved);
+    }
+
+    /// False if no packet of so many rays would traverse together.
+    #[inline(always)]
+    pub(super) fn may_go_together(&mut self, hint: Hint, rays: usize) -> bool {
+        match hint {
+            Hint::Coherent => true,
+            Hint::Incoherent => false,
+            Hint::Auto if self.accel.nodes.len() <= SMALL_TREE => true,
+            Hint::Auto => !self.pace.rests(rays.div_ceil(WIDTH) as u32),
+        }
     }
 
     /// Whether a packet traverses together: when told so, when the tree is so small that rays share most of it wherever

@@ -25,6 +25,17 @@ pub(super) fn node(accel: &Accel, child: ChildRef) -> &Node8 {
     unsafe { accel.nodes.get_unchecked(index) }
 }
 
+/// The planes of a node that an octant's rays meet first, or last, on an axis: see [`Node8::PLANES`].
+#[inline(always)]
+pub(super) fn planes(node: &Node8, from: u8) -> f32x8 {
+    debug_assert!(usize::from(from) % size_of::<[f32; WIDTH]>() == 0);
+    debug_assert!(usize::from(from) < std::mem::offset_of!(Node8, child));
+    // SAFETY: six columns of planes stand at the start of a node, and `from` is where one of them starts.
+    f32x8::new(unsafe {
+        *std::ptr::from_ref(node).cast::<u8>().add(usize::from(from)).cast::<[f32; WIDTH]>()
+    })
+}
+
 /// The block of triangles that a reference leads to.
 #[inline(always)]
 pub(super) fn triangles(accel: &Accel, child: ChildRef) -> &TriangleBlock {
@@ -40,10 +51,12 @@ pub(super) fn prefetch(accel: &Accel, child: ChildRef) {
     #[cfg(target_arch = "x86_64")]
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let index = child.index() as usize;
-        let nodes = accel.nodes.as_ptr().cast::<i8>().wrapping_add(index * size_of::<Node8>());
-        let blocks = accel.triangles.as_ptr().cast::<i8>().wrapping_add(index * size_of::<TriangleBlock>());
-        let first = if child.is_node() { nodes } else { blocks };
+        let (nodes, blocks) = (accel.nodes.as_ptr().cast::<i8>(), accel.triangles.as_ptr().cast::<i8>());
+        let (start, size) = match child.is_node() {
+            true => (nodes, size_of::<Node8>()),
+            false => (blocks, size_of::<TriangleBlock>()),
+        };
+        let first = start.wrapping_add(child.index() as usize * size);
         for line in 0..5 {
             // SAFETY: a prefetch reads nothing that the program sees, and faults at no address.
             unsafe { _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(64 * line)) };
@@ -53,7 +66,7 @@ pub(super) fn prefetch(accel: &Accel, child: ChildRef) {
     let _ = (accel, child);
 }
 
-/// Stacks of many rays: references and where the ray enters them, the next to visit last.
+/// Stacks of many rays, one after the other: references and where the ray enters them, the next to visit last.
 #[derive(Debug)]
 pub(super) struct Stacks {
     child: Vec<u32>,
@@ -80,51 +93,54 @@ impl Stacks {
         }
     }
 
-    /// Writes eight entries to a stack from `top` on.
+    /// The place of a stack where [`Self::END`] stands.
     #[inline(always)]
-    pub(super) fn write(&mut self, stack: usize, top: usize, child: u32x8, near: f32x8) {
-        let at = stack * self.stride + top;
-        debug_assert!(top + WIDTH <= self.stride && at + WIDTH <= self.child.len());
-        // SAFETY: `stack` is one of those made, and the depth of the tree bounds `top`, see the module.
+    pub(super) fn bottom(&self, stack: usize) -> usize {
+        stack * self.stride
+    }
+
+    /// Writes eight entries from a place on.
+    #[inline(always)]
+    pub(super) fn write(&mut self, place: usize, child: u32x8, near: f32x8) {
+        debug_assert!(place + WIDTH <= self.child.len() && place % self.stride + WIDTH <= self.stride);
+        // SAFETY: places lie on stacks that were made, and the depth of the tree bounds how high, see the module.
         unsafe {
-            *self.child.as_mut_ptr().add(at).cast::<[u32; WIDTH]>() = child.to_array();
-            *self.near.as_mut_ptr().add(at).cast::<[f32; WIDTH]>() = near.to_array();
+            *self.child.as_mut_ptr().add(place).cast::<[u32; WIDTH]>() = child.to_array();
+            *self.near.as_mut_ptr().add(place).cast::<[f32; WIDTH]>() = near.to_array();
         }
     }
 
-    /// The reference at a place of a stack.
+    /// The reference at a place.
     #[inline(always)]
-    pub(super) fn child(&self, stack: usize, place: usize) -> ChildRef {
-        let at = stack * self.stride + place;
-        debug_assert!(place < self.stride && at < self.child.len());
+    pub(super) fn child(&self, place: usize) -> ChildRef {
+        debug_assert!(place < self.child.len());
         // SAFETY: as above.
-        ChildRef::from_bits(unsafe { *self.child.get_unchecked(at) })
+        ChildRef::from_bits(unsafe { *self.child.get_unchecked(place) })
     }
 
-    /// Keeps those of the entries from the first to before `top` that the ray enters within its limit; gives the new top.
+    /// Keeps those entries above the bottom and below `top` that the ray enters within its limit; gives the new top.
     #[inline(always)]
-    pub(super) fn keep_within(&mut self, stack: usize, top: usize, limit: f32) -> usize {
+    pub(super) fn keep_within(&mut self, bottom: usize, top: usize, limit: f32) -> usize {
         let limit = f32x8::splat(limit);
-        let mut kept = 1;
-        for place in (1..top).step_by(WIDTH) {
-            let (child, near) = self.read(stack, place);
+        let mut kept = bottom + 1;
+        for place in (kept..top).step_by(WIDTH) {
+            let (child, near) = self.read(place);
             let inside = Lane::le(near, limit).bits() & first_lanes(top - place);
             let order = ascending(inside);
-            self.write(stack, kept, child.shuffle_wrapping(order), near.shuffle_wrapping(order));
+            self.write(kept, child.shuffle_wrapping(order), near.shuffle_wrapping(order));
             kept += inside.count_ones() as usize;
         }
         kept
     }
 
-    /// Eight entries of a stack from `place` on.
+    /// Eight entries from a place on.
     #[inline(always)]
-    fn read(&self, stack: usize, place: usize) -> (u32x8, f32x8) {
-        let at = stack * self.stride + place;
-        debug_assert!(place + WIDTH <= self.stride && at + WIDTH <= self.child.len());
+    fn read(&self, place: usize) -> (u32x8, f32x8) {
+        debug_assert!(place + WIDTH <= self.child.len());
         // SAFETY: as for writing: what is on a stack lies within it, and eight more entries do.
         unsafe {
-            let child = *self.child.as_ptr().add(at).cast::<[u32; WIDTH]>();
-            let near = *self.near.as_ptr().add(at).cast::<[f32; WIDTH]>();
+            let child = *self.child.as_ptr().add(place).cast::<[u32; WIDTH]>();
+            let near = *self.near.as_ptr().add(place).cast::<[f32; WIDTH]>();
             (u32x8::new(child), f32x8::new(near))
         }
     }

@@ -117,6 +117,19 @@ impl<L: Lane> RayLanes<L> {
             t_max: L::splat(ray.t_max),
         }
     }
+    /// Lane `i` is `rays(i)`.
+    #[inline(always)]
+    pub fn gather<'a>(rays: impl Fn(usize) -> &'a RayLanes<L::Scalar>) -> Self
+    where
+        L::Scalar: 'a,
+    {
+        Self {
+            origin: Vec3::gather(|i| &rays(i).origin),
+            direction: Vec3::gather(|i| &rays(i).direction),
+            t_min: L::from_fn(|i| rays(i).t_min),
+            t_max: L::from_fn(|i| rays(i).t_max),
+        }
+    }
     /// Lane `i` as a ray of its own.
     pub fn get(&self, i: usize) -> RayLanes<L::Scalar> {
         let [ox, oy, oz] = self.origin.get(i);

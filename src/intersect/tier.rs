@@ -24,19 +24,20 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
     type OneRay<R: Real>: Copy;
     /// Prepares a ray.
     fn prepare_one<R: Real>(ray: &RayLanes<R>) -> Self::OneRay<R>;
+    /// The same from what lane `i` of several rays was prepared with.
+    fn one_of<L: Lane>(
+        ray: &RayLanes<L::Scalar>,
+        prepared: &Self::Prepared<L>,
+        i: usize,
+    ) -> Self::OneRay<L::Scalar>;
     /// Of eight triangles, stored by corner and axis, the lanes that [`TriangleTest::test`] may accept, as bits.
     fn candidates<L: Lane>(
         ray: &RayLanes<L::Scalar>,
         prepared: &Self::OneRay<L::Scalar>,
         corners: &[[[f32; WIDTH]; 3]; 3],
     ) -> u32;
-    /// [`TriangleTest::test`] of a candidate.
-    fn test_candidate<R: Real>(
-        ray: &RayLanes<R>,
-        prepared: &Self::OneRay<R>,
-        vertices: [Vec3<R>; 3],
-        limit: R,
-    ) -> LaneHit<R>;
+    /// [`TriangleTest::test`] of candidates, each with its ray.
+    fn test_candidates<L: Lane>(ray: &RayLanes<L>, vertices: [Vec3<L>; 3], limit: L) -> LaneHit<L>;
 }
 
 /// How spheres and cylinders are decided.

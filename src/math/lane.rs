@@ -29,7 +29,7 @@ pub trait BitLane:
     /// Lane `i` is `words(i)`.
     fn from_fn(words: impl FnMut(usize) -> u32) -> Self;
     /// Word `i`.
-    fn get(self, i: usize) -> u32;
+    fn get(&self, i: usize) -> u32;
     /// Sum modulo 2^32.
     fn wrapping_add(self, other: Self) -> Self;
     /// Product modulo 2^32.
@@ -77,7 +77,7 @@ pub trait Lane:
     /// Lane `i` is `values(i)`.
     fn from_fn(values: impl FnMut(usize) -> Self::Scalar) -> Self;
     /// Lane `i`.
-    fn get(self, i: usize) -> Self::Scalar;
+    fn get(&self, i: usize) -> Self::Scalar;
     /// The first `WIDTH` values of a slice. **Panics** if it is shorter.
     fn load(values: &[Self::Scalar]) -> Self;
     /// Writes the lanes to the first `WIDTH` values of a slice. **Panics** if it is shorter.

@@ -27,8 +27,8 @@ impl BitLane for u32 {
         words(0)
     }
     #[inline(always)]
-    fn get(self, _: usize) -> u32 {
-        self
+    fn get(&self, _: usize) -> u32 {
+        *self
     }
     #[inline(always)]
     fn wrapping_add(self, other: Self) -> Self {
@@ -70,8 +70,8 @@ macro_rules! scalar_lane {
                 values(0)
             }
             #[inline(always)]
-            fn get(self, _: usize) -> $t {
-                self
+            fn get(&self, _: usize) -> $t {
+                *self
             }
             #[inline(always)]
             fn load(values: &[$t]) -> Self {

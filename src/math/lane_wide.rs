@@ -18,8 +18,8 @@ impl BitLane for u32x8 {
         u32x8::new(eight(words))
     }
     #[inline(always)]
-    fn get(self, i: usize) -> u32 {
-        self.to_array()[i]
+    fn get(&self, i: usize) -> u32 {
+        self.as_array()[i]
     }
     #[inline(always)]
     fn wrapping_add(self, other: Self) -> Self {
@@ -126,8 +126,8 @@ macro_rules! wide_lane {
             $v::new(eight(values))
         }
         #[inline(always)]
-        fn get(self, i: usize) -> $s {
-            self.to_array()[i]
+        fn get(&self, i: usize) -> $s {
+            self.as_array()[i]
         }
         #[inline(always)]
         fn load(values: &[$s]) -> Self {

@@ -36,9 +36,26 @@ impl<L: Lane> Vec3<L> {
     pub fn zero() -> Self {
         Self::new(L::zero(), L::zero(), L::zero())
     }
+    /// Lane `i` is `vectors(i)`.
+    #[inline(always)]
+    pub fn gather<'a>(vectors: impl Fn(usize) -> &'a Vec3<L::Scalar>) -> Self
+    where
+        L::Scalar: 'a,
+    {
+        Self::new(L::from_fn(|i| vectors(i).x), L::from_fn(|i| vectors(i).y), L::from_fn(|i| vectors(i).z))
+    }
+    /// A component: 0 is `x`, 1 is `y`, all others `z`.
+    #[inline(always)]
+    pub fn axis(&self, k: usize) -> L {
+        *match k {
+            0 => &self.x,
+            1 => &self.y,
+            _ => &self.z,
+        }
+    }
     /// Lane `i` as an array.
     #[inline(always)]
-    pub fn get(self, i: usize) -> [L::Scalar; 3] {
+    pub fn get(&self, i: usize) -> [L::Scalar; 3] {
         [self.x.get(i), self.y.get(i), self.z.get(i)]
     }
     /// Eight stored `f32` vectors, or the first, exactly.

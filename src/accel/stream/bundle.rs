@@ -16,7 +16,7 @@ use crate::accel::node::ChildRef;
 use crate::accel::query::Query;
 use crate::accel::{packet, single};
 use crate::intersect::{RayLanes, Tier};
-use crate::math::WIDTH;
+use crate::math::{WIDTH, three};
 
 /// Primitives met by the pyramid after which a bundle is given up: two a ray.
 const BUDGET: usize = 2 * WIDTH * WIDTH;
@@ -181,7 +181,7 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
                 self.visit_primitives(block, self.frustum.triangles(&edges), |f, i| f.packets_at(&edges, i))
             }
             None => {
-                let extent = [0, 1, 2].map(|k| block.extent(k));
+                let extent = three(|k| block.extent(k));
                 let boxes: Boxes = self.frustum.view().boxes(|k| extent[k][0], |k| extent[k][1]);
                 self.visit_primitives(block, self.frustum.primitives(&boxes), |f, i| f.packets(&boxes, i))
             }

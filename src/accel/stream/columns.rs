@@ -137,9 +137,9 @@ impl<R: Real> HitColumns<'_, R> {
     fn store_last<L: Lane<Scalar = R, Bits = wide::u32x8>>(&mut self, at: usize, found: &Closest<L>) {
         for (i, row) in (at..self.t.len()).enumerate() {
             (self.t[row], self.u[row], self.v[row]) = (found.t.get(i), found.u.get(i), found.v.get(i));
-            self.prim[row] = BitLane::get(found.prim, i);
+            self.prim[row] = BitLane::get(&found.prim, i);
             if let Some(instance) = self.instance.get_mut(row) {
-                *instance = BitLane::get(found.instance, i);
+                *instance = BitLane::get(&found.instance, i);
             }
         }
     }

@@ -10,62 +10,52 @@
 //! Each ray visits what it would visit alone, in the same order. On its way into an instance it leaves a note on its stack
 //! that brings it back out.
 
+mod candidates;
+mod seeds;
+mod slot;
+
 use wide::{f32x8, u32x8};
 
 use super::Answers;
 use super::columns::RayColumns;
 use crate::accel::Accel;
-use crate::accel::block::{Block, PrimitivesByRay};
-use crate::accel::instance::TreeRoot;
-use crate::accel::leaf::{BlockVisitor, TestRays, Testable, with_block};
-use crate::accel::node::{ChildRef, Node8};
+use crate::accel::block::{Block, TriangleBlock};
+use crate::accel::node::ChildRef;
 use crate::accel::order::far_first;
 use crate::accel::query::Query;
-use crate::accel::traversal::ask_planes;
 use crate::accel::unchecked::{self, Slots, Stacks};
-use crate::intersect::aabb::CullRay;
-use crate::intersect::{LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, WIDTH, three};
+use crate::intersect::{LaneHit, RayLanes, Tier, TriangleTest};
+use crate::math::{Lane, Mask, WIDTH, eight};
+use candidates::Candidates;
+use seeds::Waiting;
+use slot::Slot;
+
+pub(super) use seeds::Alone;
 
 /// Rays under way.
-const SLOTS: usize = 48;
+const SLOTS: usize = 32;
 /// Room in the lists: one more than slots, as a list is written before it is known whether the slot belongs there.
 const LIST: usize = SLOTS + 1;
-/// Leaves that gather before they are tested.
-const LEAVES: usize = 24;
-/// Rays in nodes below which leaves are tested however few.
-const FEW: usize = 12;
+/// Rays out of nodes that gather before they are seen to.
+const GATHER: usize = 24;
+/// Rays in nodes below which the others are seen to however few.
+const FEW: usize = 4;
 /// Rays that are done before others start in their place.
 const DONE: usize = 8;
 
 /// What lies on the stack below what a ray visits in the space of an instance.
 const LEAVE: ChildRef = ChildRef::leaf(ChildRef::LAST_KIND, 0);
 
-/// A ray under way; what the node pass needs stands first, in one cache line.
-#[repr(C, align(64))]
-struct Slot<T: Tier, Q> {
-    cull: CullRay<f32>,
-    t_min: f32,
-    /// Boxes that the ray enters beyond need no visit.
-    limit: f32,
-    octant: u32,
-    next: ChildRef,
-    /// Entries on the stack, with the one at the bottom that says it is empty.
-    top: u32,
-    row: u32,
-    /// Lanes of the leaf that is next.
-    candidates: u32,
-    ray: RayLanes<T::Real>,
-    triangle: <T::Triangle as TriangleTest>::OneRay<T::Real>,
-    query: Q,
-}
-
 /// Scratch for rays under way.
 pub(super) struct Flight<T: Tier, Q> {
     slots: Vec<Slot<T, Q>>,
     in_nodes: Slots<LIST>,
+    /// At a leaf, or done.
+    out_of_nodes: Slots<LIST>,
     in_leaves: Slots<LIST>,
-    candidates: Slots<LIST>,
+    /// At leaves of anything but triangles.
+    at_others: Slots<LIST>,
+    candidates: Box<Candidates>,
     done: Slots<LIST>,
     stacks: Stacks,
 }
@@ -75,40 +65,50 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         Self {
             slots: Vec::new(),
             in_nodes: Slots::new(),
+            out_of_nodes: Slots::new(),
             in_leaves: Slots::new(),
-            candidates: Slots::new(),
+            at_others: Slots::new(),
+            candidates: Box::default(),
             done: Slots::new(),
             stacks: Stacks::new(accel.stack_bound),
         }
     }
 
-    /// Answers the rays of the rows.
+    /// Answers the rays that go alone.
     pub(super) fn trace<A: Answers<T, One = Q>>(
         &mut self,
         accel: &Accel,
         rays: &RayColumns<T::Real>,
-        rows: &[u32],
+        alone: &Alone,
         answers: &mut A,
     ) {
-        let mut waiting = rows.iter();
-        self.stacks.make(SLOTS);
-        self.slots.clear();
-        for &row in waiting.by_ref().take(SLOTS) {
-            let slot = Slot::new(accel, rays, row, A::ask_one);
-            self.in_nodes.push_if(true, self.slots.len());
-            self.slots.push(slot);
-        }
+        let Some(mut waiting) = Waiting::<T, A>::new(accel, rays, alone) else { return };
+        self.fill(accel, &mut waiting);
         loop {
             self.node_pass(accel);
-            if self.in_leaves.len() >= LEAVES || self.in_nodes.len() < FEW {
-                self.leaf_pass(accel, rays);
+            if self.out_of_nodes.len() < GATHER && self.in_nodes.len() >= FEW {
+                continue;
             }
+            self.leaf_pass(accel, rays);
             if self.done.len() >= DONE || self.in_nodes.len() == 0 {
-                self.refill(accel, rays, &mut waiting, answers);
-                if self.in_nodes.len() + self.in_leaves.len() == 0 {
+                self.refill(accel, &mut waiting, answers);
+                if self.in_nodes.len() + self.out_of_nodes.len() == 0 {
                     return;
                 }
             }
+        }
+    }
+
+    /// Starts as many rays as there are slots.
+    fn fill<A: Answers<T, One = Q>>(&mut self, accel: &Accel, waiting: &mut Waiting<T, A>) {
+        self.stacks.make(SLOTS);
+        for at in 0..SLOTS {
+            let Some((seeds, i)) = waiting.next() else { return };
+            if self.slots.len() == at {
+                self.slots.push(Slot::of(seeds, i));
+            }
+            self.slots[at].start(seeds, i, accel.world.node, self.stacks.bottom(at));
+            self.in_nodes.push_if(true, at);
         }
     }
 
@@ -122,60 +122,105 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             let slot = &mut self.slots[at];
             let node = unchecked::node(accel, slot.next);
             let (enter, meets) = slot.children(node);
-            let order = far_first(slot.octant, meets);
-            let child = u32x8::new(node.child.map(ChildRef::bits)).shuffle_wrapping(order);
-            let near = enter.shuffle_wrapping(order);
+            let (order, count) = (far_first(slot.octant.into(), meets), meets.count_ones());
             let top = slot.top as usize;
-            self.stacks.write(at, top, child, near);
-            let top = top + meets.count_ones() as usize - 1;
-            self.go_on(at, top, accel);
+            // Not read back from the stack, which would wait for what is written there.
+            let (nearest, below) = (node.child[order.last(count)], self.stacks.child(top - 1));
+            let next = if count == 0 { below } else { nearest };
+            let child = u32x8::new(eight(|i| node.child[i].bits())).shuffle_wrapping(order.lanes());
+            self.stacks.write(top, child, enter.shuffle_wrapping(order.lanes()));
+            self.go_on(at, next, top + count as usize - 1, accel);
         }
     }
 
-    /// Takes a ray to the child at place `top` of its stack.
+    /// Takes a ray to the child that stands, or would, at place `top` of the stacks.
     #[inline(always)]
-    fn go_on(&mut self, at: usize, top: usize, accel: &Accel) {
+    fn go_on(&mut self, at: usize, next: ChildRef, top: usize, accel: &Accel) {
         let slot = &mut self.slots[at];
-        let next = self.stacks.child(at, top);
         slot.top = top as u32;
         slot.next = next;
         unchecked::prefetch(accel, next);
         self.in_nodes.push_if(next.is_node(), at);
-        self.in_leaves.push_if(!next.is_node() && next != Stacks::END, at);
-        self.done.push_if(next == Stacks::END, at);
+        self.out_of_nodes.push_if(!next.is_node(), at);
     }
 
-    /// Tests the leaves that have gathered: first all for lanes that may be hit, then those lanes.
+    /// Tests the leaves that have gathered: first all for triangles that may be hit, then those, eight at a time.
     #[inline(always)]
     fn leaf_pass(&mut self, accel: &Accel, rays: &RayColumns<T::Real>) {
-        self.candidates.clear();
-        for i in 0..self.in_leaves.len() {
-            let at = self.in_leaves.get(i);
-            let slot = &mut self.slots[at];
-            slot.candidates = slot.find_candidates(accel);
-            self.candidates.push_if(slot.candidates != 0, at);
+        self.find_candidates(accel);
+        for first in (0..self.candidates.len()).step_by(WIDTH) {
+            self.test_candidates(accel, first);
         }
-        for i in 0..self.candidates.len() {
-            let at = self.candidates.get(i);
-            let slot = &mut self.slots[at];
+        for i in 0..self.at_others.len() {
+            let at = self.at_others.get(i);
             // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
-            if slot.next.kind() >= Accel::INSTANCE {
-                self.change_space(accel, rays, at);
-            } else if slot.test_candidates(accel) {
-                slot.limit = T::above_f32(T::Wide::splat(slot.query.limit())).get(0);
-                let top = slot.top as usize;
-                let kept =
-                    if slot.query.is_done() { 1 } else { self.stacks.keep_within(at, top, slot.limit) };
-                slot.top = kept as u32;
+            match self.slots[at].next.kind() >= Accel::INSTANCE {
+                true => self.change_space(accel, rays, at),
+                false => self.slots[at].test_block(accel),
             }
         }
-        let count = self.in_leaves.len();
-        self.in_leaves.clear();
-        for i in 0..count {
-            let at = self.in_leaves.get(i);
-            let top = self.slots[at].top as usize;
-            self.go_on(at, top - 1, accel);
+        for i in 0..self.in_leaves.len() {
+            self.leave_leaf(accel, self.in_leaves.get(i));
         }
+    }
+
+    /// Tells the rays at leaves from those that are done, and finds out which triangles of the leaves may be hit.
+    #[inline(always)]
+    fn find_candidates(&mut self, accel: &Accel) {
+        self.in_leaves.clear();
+        for i in 0..self.out_of_nodes.len() {
+            let at = self.out_of_nodes.get(i);
+            let is_done = self.slots[at].next == Stacks::END;
+            self.done.push_if(is_done, at);
+            self.in_leaves.push_if(!is_done, at);
+        }
+        self.out_of_nodes.clear();
+        self.candidates.clear();
+        self.at_others.clear();
+        for i in 0..self.in_leaves.len() {
+            let at = self.in_leaves.get(i);
+            let slot = &self.slots[at];
+            self.candidates.push(at, slot.candidates(accel));
+            self.at_others.push_if(!slot.is_at_triangles(), at);
+        }
+    }
+
+    /// Tests up to eight candidates, whosever they are.
+    #[inline(always)]
+    fn test_candidates(&mut self, accel: &Accel, first: usize) {
+        let (pairs, count) = self.candidates.eight(first);
+        let slots = eight(|i| &self.slots[pairs[i].slot()]);
+        let blocks = eight(|i| unchecked::triangles(accel, slots[i].next));
+        let rays = RayLanes::<T::Wide>::gather(|i| &slots[i].ray);
+        let corners = TriangleBlock::gather(&blocks, &eight(|i| pairs[i].lane()));
+        let limit = T::Wide::from_fn(|i| slots[i].query.limit());
+        let hits = T::Triangle::test_candidates(&rays, corners, limit);
+        let mut left = hits.mask.bits() & ((1 << count) - 1);
+        while left != 0 {
+            let i = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            let slot = &mut self.slots[pairs[i].slot()];
+            let id = blocks[i].ids()[pairs[i].lane()];
+            let hit = LaneHit { mask: true, t: hits.t.get(i), u: hits.u.get(i), v: hits.v.get(i) };
+            slot.accepted |= slot.query.accept(&slot.ray, &hit, id);
+        }
+    }
+
+    /// Draws the limit in to what was found in a leaf, and goes on.
+    #[inline(always)]
+    fn leave_leaf(&mut self, accel: &Accel, at: usize) {
+        let slot = &mut self.slots[at];
+        let mut top = slot.top as usize;
+        if slot.accepted {
+            slot.accepted = false;
+            slot.limit = T::above_f32(T::Wide::splat(slot.query.limit())).get(0);
+            let bottom = self.stacks.bottom(at);
+            top = match slot.query.is_done() {
+                true => bottom + 1,
+                false => self.stacks.keep_within(bottom, top, slot.limit),
+            };
+        }
+        self.go_on(at, self.stacks.child(top - 1), top - 1, accel);
     }
 
     /// Takes a ray into the space of an instance, or back.
@@ -192,135 +237,27 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             let mut below = [LEAVE.bits(); WIDTH];
             below[1] = ChildRef::node(placed.tree.node).bits();
             let anywhere = f32x8::splat(f32::NEG_INFINITY);
-            self.stacks.write(at, slot.top as usize, u32x8::new(below), anywhere);
+            self.stacks.write(slot.top as usize, u32x8::new(below), anywhere);
             slot.top += 2;
         }
     }
 
     /// Hands out the answers of the rays that are done and starts waiting ones.
-    fn refill<'r, A: Answers<T, One = Q>>(
+    fn refill<A: Answers<T, One = Q>>(
         &mut self,
         accel: &Accel,
-        rays: &RayColumns<T::Real>,
-        waiting: &mut impl Iterator<Item = &'r u32>,
+        waiting: &mut Waiting<T, A>,
         answers: &mut A,
     ) {
         for i in 0..self.done.len() {
             let at = self.done.get(i);
             let slot = &mut self.slots[at];
             answers.store_one(slot.row as usize, &slot.query);
-            if let Some(&row) = waiting.next() {
-                *slot = Slot::new(accel, rays, row, A::ask_one);
+            if let Some((seeds, i)) = waiting.next() {
+                slot.start(seeds, i, accel.world.node, self.stacks.bottom(at));
                 self.in_nodes.push_if(true, at);
             }
         }
         self.done.clear();
-    }
-}
-
-impl<T: Tier, Q: Query<T::Real>> Slot<T, Q> {
-    fn new(
-        accel: &Accel,
-        rays: &RayColumns<T::Real>,
-        row: u32,
-        ask: impl Fn(&RayLanes<T::Real>) -> Q,
-    ) -> Self {
-        let ray = rays.get(row as usize);
-        let mut query = ask(&ray);
-        ask_planes(accel, &ray, &mut query);
-        let cull = cull_ray::<T>(&ray, accel.world);
-        Self {
-            octant: octant(&cull),
-            cull,
-            t_min: T::below_f32(T::Wide::splat(ray.t_min)).get(0),
-            limit: T::above_f32(T::Wide::splat(query.limit())).get(0),
-            next: ChildRef::node(accel.world.node),
-            top: 1,
-            row,
-            candidates: 0,
-            triangle: T::Triangle::prepare_one(&ray),
-            ray,
-            query,
-        }
-    }
-
-    /// Turns to another space.
-    fn aim(&mut self, ray: RayLanes<T::Real>, tree: TreeRoot) {
-        self.cull = cull_ray::<T>(&ray, tree);
-        self.octant = octant(&self.cull);
-        self.triangle = T::Triangle::prepare_one(&ray);
-        self.ray = ray;
-    }
-
-    /// Where the ray enters the children of a node, and which of them it meets.
-    #[inline(always)]
-    fn children(&self, node: &Node8) -> (f32x8, u32) {
-        let planes = |k: usize, far: bool| {
-            f32x8::new(if (self.octant >> k & 1 != 0) != far { node.hi[k] } else { node.lo[k] })
-        };
-        let corner = |far: bool| Vec3 { x: planes(0, far), y: planes(1, far), z: planes(2, far) };
-        let (t_min, t_max) = (f32x8::splat(self.t_min), f32x8::splat(self.limit));
-        let (enter, leave) =
-            CullRay::<f32x8>::splat(&self.cull).interval(corner(false), corner(true), t_min, t_max);
-        (enter, Lane::le(enter, leave).bits())
-    }
-
-    /// Lanes of the leaf that is next that the ray may hit, as bits; all of them where only the test can tell.
-    #[inline(always)]
-    fn find_candidates(&self, accel: &Accel) -> u32 {
-        if self.next.kind() != PrimKind::Triangle as u8 {
-            return 0xff;
-        }
-        let corners = unchecked::triangles(accel, self.next).corner_columns();
-        T::Triangle::candidates::<T::Wide>(&self.ray, &self.triangle, corners)
-    }
-
-    /// Tests the candidates; true if a hit was accepted.
-    #[inline(always)]
-    fn test_candidates(&mut self, accel: &Accel) -> bool {
-        if self.next.kind() != PrimKind::Triangle as u8 {
-            let next = self.next;
-            return with_block(accel, next, self);
-        }
-        let block = unchecked::triangles(accel, self.next);
-        let (mut left, mut accepted) = (self.candidates, false);
-        while left != 0 {
-            let i = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
-            let (corners, limit) = (block.corners_of::<T::Real>(i), self.query.limit());
-            let hit = T::Triangle::test_candidate(&self.ray, &self.triangle, corners, limit);
-            accepted |= self.query.accept(&self.ray, &hit, block.ids()[i]);
-        }
-        accepted
-    }
-}
-
-fn cull_ray<T: Tier>(ray: &RayLanes<T::Real>, tree: TreeRoot) -> CullRay<f32> {
-    let narrow = |x: T::Real| T::nearest_f32(T::Wide::splat(x)).get(0);
-    let narrow3 = |v: Vec3<T::Real>| Vec3::new(narrow(v.x), narrow(v.y), narrow(v.z));
-    let origin = narrow3(ray.origin);
-    CullRay::new(origin, narrow3(ray.direction), tree.scale_for(origin))
-}
-
-fn octant(cull: &CullRay<f32>) -> u32 {
-    let backward = cull.backward();
-    three(|k| u32::from(backward[k]) << k).into_iter().sum()
-}
-
-/// Leaves of anything but triangles: eight at once.
-impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
-    #[inline(never)]
-    fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let rays = TestRays::new(RayLanes::splat(&self.ray));
-        let limit = T::Wide::splat(self.query.limit());
-        let hit: LaneHit<T::Wide> = block.test::<T, PrimitivesByRay>(0, &rays, limit);
-        let (mut left, mut accepted) = (hit.mask.bits(), false);
-        while left != 0 {
-            let i = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let one = LaneHit { mask: true, t: hit.t.get(i), u: hit.u.get(i), v: hit.v.get(i) };
-            accepted |= self.query.accept(&self.ray, &one, block.ids()[i]);
-        }
-        accepted
     }
 }

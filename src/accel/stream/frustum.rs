@@ -193,7 +193,10 @@ impl Frustum {
         let half = f32x8::splat(0.5);
         let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
         let all_about_middle = all.about(middle);
-        let [a, b] = [all_about_middle.a, all_about_middle.b].map(|s| Lane::max(s[0].abs(), s[1].abs()));
+        let [a, b] = {
+            let greatest = |s: [f32x8; 2]| Lane::max(s[0].abs(), s[1].abs());
+            [greatest(all_about_middle.a), greatest(all_about_middle.b)]
+        };
         Self {
             view: View { axes: [0, 1, 2], backward: false, apex: [0.0; 3] },
             is_target: false,
@@ -307,7 +310,7 @@ impl Frustum {
 
 impl Slopes {
     fn about(&self, [a, b]: [f32x8; 2]) -> Self {
-        Self { a: self.a.map(|s| s - a), b: self.b.map(|s| s - b) }
+        Self { a: [self.a[0] - a, self.a[1] - a], b: [self.b[0] - b, self.b[1] - b] }
     }
 }
 
@@ -343,8 +346,9 @@ impl Edges {
     fn met(&self, slopes: &Slopes) -> u32 {
         let ([n0, n1, n2], pad) = (self.normal, self.pad);
         let range = |n: Vec3<f32x8>| {
-            let (a, b) = (slopes.a.map(|s| s * n.x), slopes.b.map(|s| s * n.y));
-            (n.z + a[0].min(a[1]) + b[0].min(b[1]), n.z + a[0].max(a[1]) + b[0].max(b[1]))
+            let (a0, a1) = (slopes.a[0] * n.x, slopes.a[1] * n.x);
+            let (b0, b1) = (slopes.b[0] * n.y, slopes.b[1] * n.y);
+            (n.z + a0.min(a1) + b0.min(b1), n.z + a0.max(a1) + b0.max(b1))
         };
         let (r0, r1, r2, whole) = (range(n0), range(n1), range(n2), range(n0 + n1 + n2));
         // Seen by all from the front, or by all from the back: only then does a sign tell the side.

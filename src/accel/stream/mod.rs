@@ -17,7 +17,7 @@ use super::traversal::{Hint, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Vec3, WIDTH};
 use bundle::{Bundle, Prepared, Stacks};
-use flight::Flight;
+use flight::{Alone, Flight};
 
 pub use columns::{Bound, HitColumns, RayColumns};
 pub use frustum::Apex;
@@ -36,8 +36,8 @@ trait Answers<T: Tier> {
     type One: Query<T::Real> + Copy;
     /// The question of eight rays.
     fn ask(rays: &RayLanes<T::Wide>) -> Self::Query;
-    /// The question of one.
-    fn ask_one(ray: &RayLanes<T::Real>) -> Self::One;
+    /// What one of the eight asks.
+    fn one(query: &Self::Query, i: usize) -> Self::One;
     /// Writes the answers of eight rays from row `at` on.
     fn store(&mut self, at: usize, query: &Self::Query);
     /// Writes the answer of one.
@@ -55,8 +55,8 @@ impl<T: Tier> Answers<T> for HitColumns<'_, T::Real> {
         Closest::new(rays.t_max)
     }
     #[inline(always)]
-    fn ask_one(ray: &RayLanes<T::Real>) -> Self::One {
-        Closest::new(ray.t_max)
+    fn one(query: &Self::Query, i: usize) -> Self::One {
+        query.get(i)
     }
     #[inline(always)]
     fn store(&mut self, at: usize, query: &Self::Query) {
@@ -83,8 +83,8 @@ impl<T: Tier> Answers<T> for Occluded<'_> {
         AnyHit::new(rays.t_max)
     }
     #[inline(always)]
-    fn ask_one(ray: &RayLanes<T::Real>) -> Self::One {
-        AnyHit::new(ray.t_max)
+    fn one(query: &Self::Query, i: usize) -> Self::One {
+        query.get(i)
     }
     #[inline(always)]
     fn store(&mut self, at: usize, query: &Self::Query) {
@@ -129,8 +129,7 @@ struct Scratch<T: Tier> {
 pub struct RayStream<'a, T: Tier> {
     bundles: Bundles<'a, T>,
     scratch: Scratch<T>,
-    /// Rows of rays that go alone.
-    alone: Vec<u32>,
+    alone: Alone,
 }
 
 impl<'a, T: Tier> RayStream<'a, T> {
@@ -142,7 +141,7 @@ impl<'a, T: Tier> RayStream<'a, T> {
                 closest: Asked::new(accel, |rays| Closest::new(rays.t_max)),
                 any: Asked::new(accel, |rays| AnyHit::new(rays.t_max)),
             },
-            alone: Vec::new(),
+            alone: Alone::default(),
         }
     }
 
@@ -209,28 +208,36 @@ impl<'a, T: Tier> Bundles<'a, T> {
         (apex, hint): (Option<Apex>, Hint),
         queries: &mut [A::Query; BUNDLE],
         answers: &mut A,
-        alone: &mut Vec<u32>,
+        alone: &mut Alone,
     ) {
         let end = rays.len.min(first + BUNDLE * WIDTH);
-        let count = (end - first).div_ceil(WIDTH);
-        for (j, at) in (first..end).step_by(WIDTH).enumerate() {
+        let packets = (first..end).step_by(WIDTH).enumerate();
+        let tried = apex.filter(|_| self.is_rested());
+        if tried.is_none() && !self.traversal.may_go_together(hint, end - first) {
+            packets.for_each(|(_, at)| alone.push(at));
+            return;
+        }
+        for (j, at) in packets.clone() {
             self.rays[j] = rays.load::<T::Wide>(at);
             queries[j] = A::ask(&self.rays[j]);
+            ask_planes(self.accel, &self.rays[j], &mut queries[j]);
         }
-        let queries = &mut queries[..count];
-        if !self.accel.planes.is_empty() {
-            for (rays, query) in self.rays.iter().zip(queries.iter_mut()) {
-                ask_planes(self.accel, rays, query);
-            }
-        }
-        let whole = apex.is_some_and(|apex| self.trace_bundle(apex, queries));
-        for (j, at) in (first..end).step_by(WIDTH).enumerate() {
+        let queries = &mut queries[..packets.len()];
+        let whole = tried.is_some_and(|apex| self.trace_bundle(apex, queries));
+        for (j, at) in packets {
             if whole || self.trace_packet(j, hint, &mut queries[j]) {
                 answers.store(at, &queries[j]);
             } else {
-                alone.extend(at as u32..end.min(at + WIDTH) as u32);
+                alone.push(at);
             }
         }
+    }
+
+    /// True if a bundle is worth a try.
+    fn is_rested(&mut self) -> bool {
+        let is_rested = self.rest == 0;
+        self.rest -= usize::from(!is_rested);
+        is_rested
     }
 
     /// False if the rays of a packet had better go alone.
@@ -245,10 +252,6 @@ impl<'a, T: Tier> Bundles<'a, T> {
     /// False if the packets do not make a bundle, or not a good one.
     fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> bool {
         let world = self.accel.world;
-        if self.rest > 0 {
-            self.rest -= 1;
-            return false;
-        }
         let rays = &self.rays[..queries.len()];
         let Some(mut bundle) = Bundle::new(rays, apex, world, &mut self.prepared, queries) else {
             return false;

@@ -32,6 +32,17 @@ impl<L: Lane> CullRay<L> {
         Self { reciprocal, near_offset: -(start + width), far_offset: width - start }
     }
 
+    /// Lane `i` as a ray of its own.
+    #[inline(always)]
+    pub fn get(&self, i: usize) -> CullRay<L::Scalar> {
+        let one = |v: &Vec3<L>| Vec3::new(v.x.get(i), v.y.get(i), v.z.get(i));
+        CullRay {
+            reciprocal: one(&self.reciprocal),
+            near_offset: one(&self.near_offset),
+            far_offset: one(&self.far_offset),
+        }
+    }
+
     /// One ray in all lanes.
     #[inline(always)]
     pub fn splat(one: &CullRay<L::Scalar>) -> Self {

@@ -53,27 +53,24 @@ impl TriangleTest for ExactVolumes {
         LaneHit { mask, t: t.clamp(first, last) + L::zero(), u, v }
     }
 
-    type OneRay<R: Real> = OwnBox<R>;
+    type OneRay<R: Real> = ();
 
     #[inline(always)]
-    fn prepare_one<R: Real>(ray: &RayLanes<R>) -> OwnBox<R> {
-        Self::prepare(ray)
-    }
+    fn prepare_one<R: Real>(_: &RayLanes<R>) {}
 
     #[inline(always)]
-    fn candidates<L: Lane>(
-        ray: &RayLanes<L::Scalar>,
-        _: &OwnBox<L::Scalar>,
-        corners: &[[[f32; WIDTH]; 3]; 3],
-    ) -> u32 {
+    fn one_of<L: Lane>(_: &RayLanes<L::Scalar>, _: &OwnBox<L>, _: usize) {}
+
+    #[inline(always)]
+    fn candidates<L: Lane>(ray: &RayLanes<L::Scalar>, (): &(), corners: &[[[f32; WIDTH]; 3]; 3]) -> u32 {
         let corners = three(|v| Vec3::<L>::load_f32(&corners[v]).widen());
         let sides = Sides::of(&RayLanes::<L>::splat(ray).widen(), corners);
         (sides.inside | sides.doubtful).bits()
     }
 
     #[inline(always)]
-    fn test_candidate<R: Real>(ray: &RayLanes<R>, own: &OwnBox<R>, v: [Vec3<R>; 3], limit: R) -> LaneHit<R> {
-        Self::test(ray, own, v, limit)
+    fn test_candidates<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
+        Self::test(ray, &Self::prepare(ray), v, limit)
     }
 }
 

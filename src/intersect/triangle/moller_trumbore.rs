@@ -40,13 +40,16 @@ impl TriangleTest for MollerTrumbore {
     fn prepare_one<R: Real>(_: &RayLanes<R>) {}
 
     #[inline(always)]
+    fn one_of<L: Lane>(_: &RayLanes<L::Scalar>, (): &(), _: usize) {}
+
+    #[inline(always)]
     fn candidates<L: Lane>(ray: &RayLanes<L::Scalar>, _: &(), corners: &[[[f32; WIDTH]; 3]; 3]) -> u32 {
         let corners = three(|v| Vec3::<L>::load_f32(&corners[v]));
         Self::test(&RayLanes::splat(ray), &(), corners, L::zero()).mask.bits()
     }
 
     #[inline(always)]
-    fn test_candidate<R: Real>(ray: &RayLanes<R>, _: &(), vertices: [Vec3<R>; 3], limit: R) -> LaneHit<R> {
+    fn test_candidates<L: Lane>(ray: &RayLanes<L>, vertices: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
         Self::test(ray, &(), vertices, limit)
     }
 }

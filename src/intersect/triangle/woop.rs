@@ -103,6 +103,17 @@ impl TriangleTest for Woop {
     }
 
     #[inline(always)]
+    fn one_of<L: Lane>(ray: &RayLanes<L::Scalar>, shear: &Shear<L>, i: usize) -> OneShear<L::Scalar> {
+        let (along_x, along_y) = (shear.along_x.bits() >> i & 1, shear.along_y.bits() >> i & 1);
+        let axes = AXES[if along_x != 0 { 0 } else { 2 - along_y as usize }];
+        OneShear {
+            axes,
+            origin: by_axes(&axes, &ray.origin),
+            shear: [shear.shear_x.get(i), shear.shear_y.get(i)],
+        }
+    }
+
+    #[inline(always)]
     fn candidates<L: Lane>(
         _: &RayLanes<L::Scalar>,
         shear: &OneShear<L::Scalar>,
@@ -112,13 +123,9 @@ impl TriangleTest for Woop {
     }
 
     #[inline(always)]
-    fn test_candidate<R: Real>(
-        ray: &RayLanes<R>,
-        shear: &OneShear<R>,
-        vertices: [Vec3<R>; 3],
-        limit: R,
-    ) -> LaneHit<R> {
-        within_own_box(true, ray, &shear.own, vertices, limit)
+    fn test_candidates<L: Lane>(ray: &RayLanes<L>, vertices: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
+        let own = OwnBox::new(ray.origin, ray.direction);
+        within_own_box(L::Mask::splat(true), ray, &own, vertices, limit)
     }
 }
 
@@ -131,11 +138,16 @@ pub struct OneShear<R> {
     /// By the axes above.
     origin: [R; 3],
     shear: [R; 2],
-    own: OwnBox<R>,
 }
 
 /// Stored axes that stand for `x`, `y` and `z`, by the last of them.
 const AXES: [[u8; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
+
+/// The components of a vector that stand for `x`, `y` and `z`.
+#[inline(always)]
+fn by_axes<R: Real>(axes: &[u8; 3], v: &Vec3<R>) -> [R; 3] {
+    three(|k| v.axis(usize::from(axes[k])))
+}
 
 impl<R: Real> OneShear<R> {
     /// The arithmetic of [`Shear::new`], without branches on the axis.
@@ -146,14 +158,8 @@ impl<R: Real> OneShear<R> {
         let along_y = !along_x & size.y.ge(size.z);
         let z = if along_x { 0 } else { 2 - usize::from(along_y) };
         let axes = AXES[z];
-        let of = |v: Vec3<R>| three(|k| [v.x, v.y, v.z][usize::from(axes[k])]);
-        let [x, y, z] = of(ray.direction);
-        Self {
-            axes,
-            origin: of(ray.origin),
-            shear: [x / z, y / z],
-            own: OwnBox::new(ray.origin, ray.direction),
-        }
+        let [x, y, z] = by_axes(&axes, &ray.direction);
+        Self { axes, origin: by_axes(&axes, &ray.origin), shear: [x / z, y / z] }
     }
 
     /// The two coordinates across the ray of eight corners.

@@ -1,0 +1,120 @@
+//! Rays that are about to start, prepared eight at a time.
+
+use wide::f32x8;
+
+use super::super::Answers;
+use super::super::columns::RayColumns;
+use crate::accel::Accel;
+use crate::accel::leaf::{TestRays, cull_rays};
+use crate::accel::query::Query;
+use crate::accel::traversal::ask_planes;
+use crate::intersect::aabb::CullRay;
+use crate::intersect::{RayLanes, Tier};
+use crate::math::{Mask, WIDTH};
+
+/// Eight rays and all that their way down the tree needs to know of them.
+pub(super) struct Seeds<T: Tier, A: Answers<T>> {
+    pub(super) rays: TestRays<T>,
+    pub(super) cull: CullRay<f32x8>,
+    pub(super) t_min: f32x8,
+    pub(super) limit: f32x8,
+    /// By axis, lanes that go against it.
+    backward: [u32; 3],
+    queries: A::Query,
+    /// Row of the first.
+    first: u32,
+}
+
+impl<T: Tier, A: Answers<T>> Seeds<T, A> {
+    /// The rays from a row on.
+    #[inline(always)]
+    pub(super) fn new(accel: &Accel, rays: &RayColumns<T::Real>, first: u32) -> Self {
+        let rays: RayLanes<T::Wide> = rays.load(first as usize);
+        let mut queries = A::ask(&rays);
+        ask_planes(accel, &rays, &mut queries);
+        let cull = cull_rays::<T>(&rays, accel.world);
+        Self {
+            backward: cull.backward().map(Mask::bits),
+            cull,
+            t_min: T::below_f32(rays.t_min),
+            limit: T::above_f32(queries.limit()),
+            rays: TestRays::new(rays),
+            queries,
+            first,
+        }
+    }
+
+    /// Row of ray `i`.
+    pub(super) fn row(&self, i: usize) -> u32 {
+        self.first + i as u32
+    }
+
+    /// Octant of the direction of ray `i`.
+    #[inline(always)]
+    pub(super) fn octant(&self, i: usize) -> u32 {
+        let [x, y, z] = self.backward.map(|lanes| lanes >> i & 1);
+        x | y << 1 | z << 2
+    }
+
+    /// What ray `i` asks.
+    #[inline(always)]
+    pub(super) fn query(&self, i: usize) -> A::One {
+        A::one(&self.queries, i)
+    }
+}
+
+/// Rows of rays that go alone, in runs of up to eight, each at a row that is a multiple of eight.
+#[derive(Default)]
+pub(in super::super) struct Alone {
+    runs: Vec<u32>,
+}
+
+impl Alone {
+    pub(in super::super) fn clear(&mut self) {
+        self.runs.clear();
+    }
+    pub(in super::super) fn is_empty(&self) -> bool {
+        self.runs.is_empty()
+    }
+    /// Adds the run from a row on.
+    pub(in super::super) fn push(&mut self, first: usize) {
+        self.runs.push(first as u32);
+    }
+}
+
+/// Rays that wait, of which up to eight are prepared.
+pub(super) struct Waiting<'r, T: Tier, A: Answers<T>> {
+    accel: &'r Accel,
+    rays: &'r RayColumns<'r, T::Real>,
+    runs: std::slice::Iter<'r, u32>,
+    seeds: Seeds<T, A>,
+    /// Lanes of the seeds that have started, and how many are to.
+    next: usize,
+    count: usize,
+}
+
+impl<'r, T: Tier, A: Answers<T>> Waiting<'r, T, A> {
+    /// `None` without any.
+    pub(super) fn new(accel: &'r Accel, rays: &'r RayColumns<'r, T::Real>, alone: &'r Alone) -> Option<Self> {
+        let mut runs = alone.runs.iter();
+        let first = *runs.next()?;
+        let seeds = Seeds::new(accel, rays, first);
+        Some(Self { accel, rays, runs, seeds, next: 0, count: run_from(rays.len, first) })
+    }
+
+    /// The next to start, as a lane of seeds.
+    #[inline(always)]
+    pub(super) fn next(&mut self) -> Option<(&Seeds<T, A>, usize)> {
+        if self.next == self.count {
+            let first = *self.runs.next()?;
+            self.seeds = Seeds::new(self.accel, self.rays, first);
+            (self.next, self.count) = (0, run_from(self.rays.len, first));
+        }
+        self.next += 1;
+        Some((&self.seeds, self.next - 1))
+    }
+}
+
+fn run_from(len: usize, first: u32) -> usize {
+    WIDTH.min(len - first as usize)
+}
