@@ -5,6 +5,7 @@
 
 mod active;
 mod finish;
+mod left;
 mod queue;
 
 use std::path::Path;
@@ -17,6 +18,7 @@ use super::source::Source;
 use super::{BatchError, Plan, Shard, Store};
 use crate::wavefront::{Progress, Scratch};
 use finish::{Finished, write_all};
+use left::{Left, left};
 use queue::{Queue, Task, Waiting};
 
 /// How units are rendered; nothing here changes their bytes.
@@ -105,28 +107,6 @@ pub fn run(plan: &Plan, folder: &Path, store: &Store, options: &RunOptions) -> R
         stopped: options.stop.load(Relaxed),
         time: begun.elapsed(),
     })
-}
-
-/// The units that are not done, and what is known of those that are.
-#[derive(Default)]
-struct Left {
-    to_do: Vec<u64>,
-    done: u64,
-    nan_samples: u64,
-}
-
-fn left(plan: &Plan, store: &Store, shard: Option<Shard>) -> Result<Left, BatchError> {
-    let mut left = Left::default();
-    for unit in plan.units_of(shard) {
-        match store.record(unit)? {
-            Some(record) => {
-                left.done += 1;
-                left.nan_samples += record.nan_samples;
-            }
-            None => left.to_do.push(unit),
-        }
-    }
-    Ok(left)
 }
 
 /// What the threads of a run share.
