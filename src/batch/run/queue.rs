@@ -123,8 +123,9 @@ impl State {
 
     /// The next unit, if there is memory for it or nothing else is in work.
     fn next_that_fits(&mut self) -> Option<Waiting> {
-        let (bytes, max) = (self.bytes, self.max_bytes);
-        self.waiting.pop_front_if(|waiting| bytes == 0 || bytes.saturating_add(waiting.size_bytes) <= max)
+        let next = self.waiting.front()?;
+        let fits = self.bytes == 0 || self.bytes.saturating_add(next.size_bytes) <= self.max_bytes;
+        if fits { self.waiting.pop_front() } else { None }
     }
 }
 
