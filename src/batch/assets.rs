@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::BatchError;
 use crate::describe::{MeshSource, SceneDescription};
+use crate::load::material_files;
 
 /// A file with its content's hash.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -46,10 +47,16 @@ impl Files {
         }
     }
 
+    /// Takes note of what others have noted.
+    pub(super) fn join(&mut self, others: Self) {
+        self.plain.extend(others.plain);
+        self.with_materials.extend(others.with_materials);
+    }
+
     /// All of them with their hashes, sorted, relative to `folder`.
     pub(super) fn hashed(mut self, folder: &Path) -> Result<Vec<Asset>, BatchError> {
-        for mesh in &self.with_materials {
-            self.plain.extend(materials_of(mesh)?);
+        for mesh in self.with_materials.iter().filter(|mesh| is_obj(mesh)) {
+            self.plain.extend(material_files(mesh)?);
         }
         let asset = |path: PathBuf| {
             let blake3 = hash(&read(&path)?);
@@ -69,26 +76,8 @@ pub(super) fn changes(assets: &[Asset], folder: &Path) -> Vec<String> {
     assets.iter().filter_map(changed).collect()
 }
 
-/// The material files of an OBJ file and the textures they name.
-fn materials_of(mesh: &Path) -> Result<Vec<PathBuf>, BatchError> {
-    if !mesh.extension().is_some_and(|e| e.eq_ignore_ascii_case("obj")) {
-        return Ok(Vec::new());
-    }
-    let text = read(mesh)?;
-    let folder = mesh.parent().unwrap_or(Path::new(""));
-    let mut found: Vec<PathBuf> = words_after(&text, "mtllib").map(|name| folder.join(name)).collect();
-    found.retain(|path| path.is_file());
-    let loaded = crate::load::load_mesh(mesh)?;
-    found.extend(loaded.materials.into_iter().filter_map(|material| material.texture));
-    Ok(found)
-}
-
-/// What follows a key at the beginning of lines.
-fn words_after<'a>(text: &'a [u8], key: &'a str) -> impl Iterator<Item = String> + 'a {
-    text.split(|&byte| byte == b'\n').filter_map(move |line| {
-        let rest = line.trim_ascii().strip_prefix(key.as_bytes())?;
-        rest.first()?.is_ascii_whitespace().then(|| String::from_utf8_lossy(rest.trim_ascii()).into_owned())
-    })
+fn is_obj(mesh: &Path) -> bool {
+    mesh.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("obj"))
 }
 
 fn read(path: &Path) -> Result<Vec<u8>, BatchError> {

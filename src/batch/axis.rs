@@ -6,8 +6,8 @@ use toml::Value;
 
 use super::job::{Sweep, SweepMode};
 
-/// Most values of a sweep, all axes together.
-const MOST: usize = 10_000_000;
+/// Most pictures of a job: what a plan of some hundred megabytes holds.
+pub(super) const MOST_PICTURES: usize = 1_000_000;
 
 /// One picture's choice: a key and its value for each axis.
 pub(super) type Choice = Vec<(String, Value)>;
@@ -27,8 +27,8 @@ pub(super) fn choices(axes: &BTreeMap<String, Sweep>, mode: SweepMode) -> Result
 
 fn product(columns: &[(&String, Vec<Value>)]) -> Result<Vec<Choice>, String> {
     let count = columns.iter().try_fold(1usize, |count, (_, values)| count.checked_mul(values.len()));
-    if count.is_none_or(|count| count > MOST) {
-        return Err(format!("the sweep makes more than {MOST} pictures"));
+    if count.is_none_or(|count| count > MOST_PICTURES) {
+        return Err(format!("the sweep makes more than {MOST_PICTURES} pictures"));
     }
     let mut choices: Vec<Choice> = vec![Vec::new()];
     for (key, values) in columns {
@@ -62,7 +62,7 @@ fn values(sweep: &Sweep) -> Result<Vec<Value>, String> {
 }
 
 fn linspace(first: f64, last: f64, count: f64) -> Result<Vec<Value>, String> {
-    if count.fract() != 0.0 || !(1.0..=MOST as f64).contains(&count) {
+    if count.fract() != 0.0 || !(1.0..=MOST_PICTURES as f64).contains(&count) {
         return Err(format!("linspace is [first, last, how many], and {count} is no number of values"));
     }
     let steps = (count - 1.0).max(1.0);
@@ -80,16 +80,26 @@ fn range(bounds: &[Value]) -> Result<Vec<Value>, String> {
         [first, end, step] => (first, end, step),
         _ => return Err(usage()),
     };
+    if let [Some(a), Some(b), Some(s)] = [first, end, step].map(Value::as_integer) {
+        return whole(a, b, s);
+    }
     let number = |value: &Value| value.as_float().or(value.as_integer().map(|i| i as f64)).ok_or_else(usage);
     let (a, b, s) = (number(first)?, number(end)?, number(step)?);
     let count = ((b - a) / s).ceil();
-    if s == 0.0 || !count.is_finite() || count > MOST as f64 {
-        return Err(format!("the step {s} does not lead from {a} to {b} within {MOST} values"));
+    if s == 0.0 || !count.is_finite() || count > MOST_PICTURES as f64 {
+        return Err(format!("the step {s} does not lead from {a} to {b} within {MOST_PICTURES} values"));
     }
-    let whole = [first, end, step].iter().all(|value| value.is_integer());
-    let at =
-        |k: i64| if whole { Value::Integer(a as i64 + k * s as i64) } else { Value::Float(a + k as f64 * s) };
-    Ok((0..count.max(0.0) as i64).map(at).collect())
+    Ok((0..count.max(0.0) as u64).map(|k| Value::Float(a + k as f64 * s)).collect())
+}
+
+/// In whole numbers of any size, which floating point would round.
+fn whole(a: i64, b: i64, s: i64) -> Result<Vec<Value>, String> {
+    let [length, step] = [i128::from(b) - i128::from(a), i128::from(s)];
+    let count = if step == 0 { i128::MAX } else { (length + step - step.signum()) / step };
+    if count > MOST_PICTURES as i128 {
+        return Err(format!("the step {s} does not lead from {a} to {b} within {MOST_PICTURES} values"));
+    }
+    Ok((0..count.max(0) as i64).map(|k| Value::Integer(a + k * s)).collect())
 }
 
 #[cfg(test)]
@@ -109,6 +119,10 @@ mod tests {
         assert_eq!(sweep("a = { linspace = [1, 9, 1] }").unwrap(), ["1.0"]);
         assert_eq!(sweep("a = { range = [0, 5, 2] }").unwrap(), ["0", "2", "4"]);
         assert_eq!(sweep("a = { range = [1, 0, -0.5] }").unwrap(), ["1.0", "0.5"]);
+        assert_eq!(sweep("a = { range = [5, 0, -2] }").unwrap(), ["5", "3", "1"]);
+        assert_eq!(sweep("a = { range = [4, 0, -2] }").unwrap(), ["4", "2"]);
+        let large = "a = { range = [9007199254740993, 9007199254740995] }";
+        assert_eq!(sweep(large).unwrap(), ["9007199254740993", "9007199254740994"]);
         assert_eq!(sweep("a = { list = ['x', [1, 2]] }").unwrap(), ["\"x\"", "[1, 2]"]);
         assert_eq!(sweep("").unwrap(), [""]);
     }
@@ -129,7 +143,14 @@ mod tests {
 
     #[test]
     fn bad_axes_are_named() {
-        for text in ["a = { list = [] }", "a = { range = [0, 1, 0] }", "a = { range = [0, 'x'] }"] {
+        for text in [
+            "a = { list = [] }",
+            "a = { range = [0, 1, 0] }",
+            "a = { range = [0.0, 1, 0] }",
+            "a = { range = [0, -1] }",
+            "a = { range = [0, 'x'] }",
+            "a = { range = [-9223372036854775807, 9223372036854775807] }",
+        ] {
             assert!(sweep(text).unwrap_err().contains("`a`"), "{text}");
         }
         assert!(sweep("a = { linspace = [0, 1, 1.5] }").unwrap_err().contains("1.5"));

@@ -123,10 +123,14 @@ pub(super) fn files(
 fn encoded(file: &PictureFile, scene: &Scene, film: &Film) -> Result<Vec<u8>, BatchError> {
     let cannot_write = |cause| OutputError::Write { path: file.path.clone().into(), cause };
     let format = Format::from_path(file.path.as_ref())?;
+    let mut bytes = Vec::new();
+    if film.planes.is_empty() {
+        encode(film, format, scene.settings.tone, &mut bytes).map_err(cannot_write)?;
+        return Ok(bytes);
+    }
     let wanted = |plane: &&Plane| file.aovs.iter().any(|aov| aov.channels().contains(&plane.name.as_str()));
     let planes = film.planes.iter().filter(wanted).cloned().collect();
     let film = Film { width: film.width, height: film.height, pixels: film.pixels.clone(), planes };
-    let mut bytes = Vec::new();
     encode(&film, format, scene.settings.tone, &mut bytes).map_err(cannot_write)?;
     Ok(bytes)
 }

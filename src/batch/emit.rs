@@ -47,11 +47,15 @@ fn quoted(text: &str) -> String {
     }
 }
 
-/// A name that schedulers take: small letters, digits and dashes.
+/// Longest name of a Kubernetes job whose pods, each with a dash and its index behind that name, are hosts.
+const MOST_LETTERS: usize = 50;
+
+/// A name that schedulers take: small letters, digits and dashes, none of them at the end.
 fn plain_name(name: &str) -> String {
     let letter = |c: char| if c.is_ascii_alphanumeric() { c.to_ascii_lowercase() } else { '-' };
     let name: String = name.chars().map(letter).collect();
-    format!("octray-{}", name.trim_matches('-'))
+    let name: String = format!("octray-{}", name.trim_matches('-')).chars().take(MOST_LETTERS).collect();
+    name.trim_matches('-').to_owned()
 }
 
 #[cfg(test)]
@@ -63,5 +67,7 @@ mod tests {
         assert_eq!(quoted("a/b-1.plan"), "a/b-1.plan");
         assert_eq!(quoted("it's $HOME"), r"'it'\''s $HOME'");
         assert_eq!(plain_name("My Turn_1"), "octray-my-turn-1");
+        assert_eq!(plain_name("日本"), "octray");
+        assert_eq!(plain_name(&format!("{}-b", "a".repeat(42))), format!("octray-{}", "a".repeat(42)));
     }
 }

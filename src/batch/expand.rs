@@ -3,27 +3,35 @@
 use std::collections::HashMap;
 use std::path::Path;
 
+use rayon::prelude::*;
+
 use super::assets::Files;
-use super::axis::{Choice, choices};
-use super::job::{Job, JobCamera, Output};
+use super::axis::{Choice, MOST_PICTURES, choices};
+use super::job::{Job, JobCamera, Output, SeedMode};
 use super::keyframes::Track;
 use super::pattern::{self, Names};
 use super::picture::{Picture, PictureFile};
 use super::source::Source;
-use super::{BatchError, frames};
+use super::{BatchError, frames, seed};
 use crate::output::Format;
+
+/// Pictures that are made at a time: enough for all threads, and a fault in the first of a million is told soon.
+const AT_A_TIME: usize = 4096;
 
 /// The pictures of a job: choices of the sweep, for each all cameras, for each all frames. `files` sees the scene of each.
 pub(super) fn pictures(job: &Job, source: &Source, files: &mut Files) -> Result<Vec<Picture>, BatchError> {
-    let plan = Axes::of(job).map_err(BatchError::Job)?;
+    let axes = Axes::of(job).map_err(BatchError::Job)?;
     let common = job.common_sets();
-    let mut pictures = Vec::new();
-    for (number, choice) in plan.choices.iter().enumerate() {
-        for camera in &plan.cameras {
-            for &frame in &plan.frames {
-                let picture = plan.picture(job, (number, choice), *camera, frame).map_err(BatchError::Job)?;
-                pictures.push(checked(picture, source, &common, files)?);
-            }
+    let count = axes.count().map_err(BatchError::Job)?;
+    let mut pictures = Vec::with_capacity(count);
+    for first in (0..count).step_by(AT_A_TIME) {
+        let numbers = first..count.min(first + AT_A_TIME);
+        let made: Vec<_> =
+            numbers.into_par_iter().map(|number| axes.checked(number, job, source, &common)).collect();
+        for made in made {
+            let (picture, seen) = made?;
+            files.join(seen);
+            pictures.push(picture);
         }
     }
     distinct(&pictures).map_err(BatchError::Job)?;
@@ -60,13 +68,51 @@ impl<'a> Axes<'a> {
         Ok(Self { choices: choices(&job.sweep, job.sweep_mode)?, cameras, frames, tracks })
     }
 
+    /// How many pictures there are.
+    fn count(&self) -> Result<usize, String> {
+        let count = (self.choices.len().checked_mul(self.cameras.len()))
+            .and_then(|count| count.checked_mul(self.frames.len()));
+        let count = count.filter(|&count| count <= MOST_PICTURES);
+        count.ok_or_else(|| {
+            format!(
+                "sweep, cameras and frames make more than {MOST_PICTURES} pictures: cut the job into several"
+            )
+        })
+    }
+
+    /// Picture `number` with what its scene says, and the files of that scene.
+    fn checked(
+        &self,
+        number: usize,
+        job: &Job,
+        source: &Source,
+        common: &[String],
+    ) -> Result<(Picture, Files), BatchError> {
+        let (frames, cameras) = (self.frames.len(), self.cameras.len());
+        let (frame, camera, choice) = (number % frames, number / frames % cameras, number / frames / cameras);
+        let picture = self.picture(job, choice, self.cameras[camera], self.frames[frame]);
+        let mut picture = picture.map_err(BatchError::Job)?;
+        let sets: Vec<String> = common.iter().chain(&picture.sets).cloned().collect();
+        let scene = source
+            .with(&sets)
+            .map_err(|error| BatchError::Picture { picture: picture.name.clone(), source: error })?;
+        if job.seed_mode == SeedMode::PerPicture {
+            let seed = seed::of_picture(scene.render.seed, number as u64);
+            picture.sets.push(format!("render.seed={seed}"));
+        }
+        let mut files = Files::default();
+        files.see(&scene);
+        Ok((Picture { size: scene.render.size, spp: scene.render.spp, ..picture }, files))
+    }
+
     fn picture(
         &self,
         job: &Job,
-        (number, choice): (usize, &Choice),
+        number: usize,
         camera: Option<&JobCamera>,
         frame: Option<i64>,
     ) -> Result<Picture, String> {
+        let choice = &self.choices[number];
         let of_camera =
             camera.iter().flat_map(|c| c.set.iter().map(|(key, value)| format!("camera.{key}={value}")));
         let of_frame =
@@ -106,19 +152,8 @@ fn title(names: &Names) -> String {
     if parts.is_empty() { "the picture".into() } else { parts.join(", ") }
 }
 
-/// The picture with what its scene says.
-fn checked(
-    picture: Picture,
-    source: &Source,
-    common: &[String],
-    files: &mut Files,
-) -> Result<Picture, BatchError> {
-    let sets: Vec<String> = common.iter().chain(&picture.sets).cloned().collect();
-    let scene = source
-        .with(&sets)
-        .map_err(|error| BatchError::Picture { picture: picture.name.clone(), source: error })?;
-    files.see(&scene);
-    Ok(Picture { size: scene.render.size, spp: scene.render.spp, ..picture })
+fn job_has_twice(picture: &Picture, path: &str) -> bool {
+    picture.outputs.iter().filter(|file| file.path == path).count() > 1
 }
 
 /// No two pictures share a file.
@@ -128,6 +163,9 @@ fn distinct(pictures: &[Picture]) -> Result<(), String> {
         for file in &picture.outputs {
             if let Some(other) = owner.insert(file.path.clone(), &picture.name) {
                 let (path, name) = (&file.path, &picture.name);
+                if other == name && job_has_twice(picture, path) {
+                    return Err(format!("two [[output]] of the job are the same file `{path}`"));
+                }
                 return Err(format!(
                     "output `{path}` would hold both {other} and {name}: name what differs in it, such as {{camera}}, {{sweep}} or {{key}}"
                 ));

@@ -1,7 +1,6 @@
 //! Frame numbers: `7`, `1-100`, `1-100x10`, `1,3,5..9`.
 
-/// Most frames of a job.
-const MOST_FRAMES: usize = 10_000_000;
+use super::axis::MOST_PICTURES;
 
 /// The frames that `text` lists, in the order written, each once.
 pub(super) fn parse(text: &str) -> Result<Vec<i64>, String> {
@@ -34,8 +33,8 @@ fn range(part: &str, frames: &mut Vec<i64>) -> Result<(), String> {
         return Err(format!("`{part}` runs backwards: the first frame comes first, the step is at least 1"));
     }
     let count = last.abs_diff(first) / step.unsigned_abs() + 1;
-    if count as usize > MOST_FRAMES || frames.len() + count as usize > MOST_FRAMES {
-        return Err(format!("`{part}` makes more than {MOST_FRAMES} frames"));
+    if count as usize > MOST_PICTURES || frames.len() + count as usize > MOST_PICTURES {
+        return Err(format!("`{part}` makes more than {MOST_PICTURES} frames"));
     }
     frames.extend((0..count as i64).map(|k| first + k * step));
     Ok(())

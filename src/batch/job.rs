@@ -3,7 +3,9 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
+use schemars::JsonSchema;
 use serde::Deserialize;
+use serde::de::{Deserializer, Error};
 use toml::Value;
 
 use super::BatchError;
@@ -11,12 +13,13 @@ use crate::describe::{BuildQuality, Tier};
 use crate::film::Aov;
 
 /// A job, as written. Field names are the keys of the file.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Job {
     /// Scene file or mesh, relative to the job file, or the name of a built-in scene.
     pub scene: String,
     /// Width and height in pixels, in place of the scene's.
+    #[serde(default, deserialize_with = "size")]
     pub size: Option<[u32; 2]>,
     /// Samples a pixel, in place of the scene's.
     pub spp: Option<u32>,
@@ -24,6 +27,9 @@ pub struct Job {
     pub max_depth: Option<u32>,
     /// Seed, in place of the scene's.
     pub seed: Option<u64>,
+    /// Whether all pictures have that seed, or each one of its own that follows from it.
+    #[serde(default)]
+    pub seed_mode: SeedMode,
     /// Tier, in place of the scene's.
     pub tier: Option<Tier>,
     /// Work that goes into trees, in place of the scene's.
@@ -32,6 +38,7 @@ pub struct Job {
     pub frames: Option<String>,
     /// Values in place of the scene's, by key as for `--set`.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub set: BTreeMap<String, Value>,
     /// Values that change from picture to picture, by key as for `--set`.
     #[serde(default)]
@@ -45,7 +52,8 @@ pub struct Job {
     /// `[[keyframes]]`: values that change from frame to frame.
     #[serde(default)]
     pub keyframes: Vec<Keyframes>,
-    /// `[[output]]`: the files of each picture.
+    /// `[[output]]`: the files of each picture, at least one.
+    #[schemars(length(min = 1))]
     pub output: Vec<Output>,
     /// Folder of the job file: relative paths start here. Not part of the file.
     #[serde(skip)]
@@ -55,20 +63,31 @@ pub struct Job {
     pub name: String,
 }
 
+/// Which pictures have which seed.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SeedMode {
+    /// All have the job's or the scene's: what does not change from picture to picture has the same noise.
+    #[default]
+    Same,
+    /// Each has one of its own, that follows from the job's or the scene's and the picture's number.
+    PerPicture,
+}
+
 /// The values of one axis of a sweep.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Sweep {
     /// These.
-    List(Vec<Value>),
+    List(#[schemars(with = "Vec<serde_json::Value>", length(min = 1))] Vec<Value>),
     /// First and end, which is left out, and perhaps a step: as Python's `range`.
-    Range(Vec<Value>),
+    Range(#[schemars(with = "Vec<f64>", length(min = 2, max = 3))] Vec<Value>),
     /// First, last and how many, evenly spread.
     Linspace([f64; 3]),
 }
 
 /// How the axes of a sweep meet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum SweepMode {
     /// Every value of one with every value of the others; the last axis changes fastest.
@@ -79,18 +98,19 @@ pub enum SweepMode {
 }
 
 /// One camera.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JobCamera {
     /// Its name, for `{camera}` in paths.
     pub name: String,
     /// Values in place of the scene's camera, by the camera's keys.
     #[serde(default)]
+    #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub set: BTreeMap<String, Value>,
 }
 
 /// Values of one key at some frames.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Keyframes {
     /// The key, as for `--set`.
@@ -98,6 +118,7 @@ pub struct Keyframes {
     /// Frames, ascending.
     pub frames: Vec<f64>,
     /// A number or an array of numbers for each.
+    #[schemars(with = "Vec<NumberOrNumbers>")]
     pub values: Vec<Value>,
     /// What lies between.
     #[serde(default)]
@@ -105,7 +126,7 @@ pub struct Keyframes {
 }
 
 /// How values between keyframes are found. Before the first and after the last keyframe its value holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Interpolation {
     /// Straight lines.
@@ -116,7 +137,7 @@ pub enum Interpolation {
 }
 
 /// One file of each picture.
-#[derive(Clone, Debug, Deserialize)]
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct Output {
     /// Path below the output folder; `####` is the frame, `{name}`, `{camera}`, `{sweep}` and `{key}` what they say.
@@ -128,12 +149,35 @@ pub struct Output {
     pub camera_json: Option<bool>,
 }
 
+/// A value of a keyframe, for the schema.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "only its schema is used")]
+enum NumberOrNumbers {
+    Number(f64),
+    Numbers(Vec<f64>),
+}
+
+/// The JSON Schema of job files.
+#[must_use]
+pub fn schema() -> String {
+    let schema = schemars::schema_for!(Job);
+    serde_json::to_string_pretty(&schema).expect("a schema is plain JSON")
+}
+
 impl Job {
     /// The job in a file.
     ///
     /// **Errors:** [`BatchError`] with file, line and what was expected.
     pub fn read(path: &Path) -> Result<Self, BatchError> {
-        let text = std::fs::read_to_string(path).map_err(|cause| BatchError::read(path, cause))?;
+        let bytes = std::fs::read(path).map_err(|cause| BatchError::read(path, cause))?;
+        let text = String::from_utf8(bytes).map_err(|error| {
+            let line = 1 + error.as_bytes()[..error.utf8_error().valid_up_to()]
+                .iter()
+                .filter(|&&b| b == b'\n')
+                .count();
+            BatchError::Job(format!("{}:{line}: is no text in UTF-8", path.display()))
+        })?;
         let mut job = Self::parse(&text, &path.display().to_string())?;
         job.folder = path.parent().unwrap_or(Path::new("")).to_owned();
         job.name = path.file_stem().unwrap_or_default().to_string_lossy().into_owned();
@@ -173,6 +217,13 @@ impl Job {
         let names: Vec<String> = wanted.iter().map(|aov| format!("\"{}\"", aov.name())).collect();
         (!names.is_empty()).then(|| format!("[{}]", names.join(", ")))
     }
+}
+
+/// Two numbers and no third, which would else be left out without a word.
+fn size<'de, D: Deserializer<'de>>(deserializer: D) -> Result<Option<[u32; 2]>, D::Error> {
+    let sides = Vec::<u32>::deserialize(deserializer)?;
+    let size = <[u32; 2]>::try_from(sides);
+    size.map(Some).map_err(|sides| Error::invalid_length(sides.len(), &"[width, height] in pixels"))
 }
 
 /// A name as a scene file has it.

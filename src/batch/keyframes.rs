@@ -22,6 +22,9 @@ impl<'a> Track<'a> {
         if !frames.windows(2).all(|w| w[0] < w[1]) {
             return fault("the frames must ascend".into());
         }
+        if !frames.iter().all(|frame| frame.is_finite()) {
+            return fault("frames are numbers, neither infinite nor nan".into());
+        }
         let Some(points) = values.iter().map(components).collect::<Option<Vec<_>>>() else {
             return fault("values are numbers or arrays of numbers".into());
         };
@@ -130,6 +133,8 @@ mod tests {
         for (text, word) in [
             ("frames=[]\nvalues=[]", "one value a frame"),
             ("frames=[1]\nvalues=[1, 2]", "one value a frame"),
+            ("frames=[nan]\nvalues=[1]", "neither infinite"),
+            ("frames=[1, inf]\nvalues=[1, 2]", "neither infinite"),
             ("frames=[2, 1]\nvalues=[1, 2]", "ascend"),
             ("frames=[1, 2]\nvalues=['a', 'b']", "numbers"),
             ("frames=[1, 2]\nvalues=[1, [2, 3]]", "lengths"),

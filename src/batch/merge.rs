@@ -9,16 +9,18 @@ use super::part::Part;
 use super::picture::Picture;
 use super::plan::Split;
 use super::source::Source;
+use super::threads::workers;
 use super::{BatchError, Plan, Store};
-use crate::wavefront::RenderError;
 
 /// Which units are done.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Status {
     /// Number of units.
     pub units: u64,
     /// Number of units that are done.
     pub done: u64,
+    /// Contributions to them that were left out because they were not numbers.
+    pub nan_samples: u64,
     /// Shards with units that are not done, ascending.
     pub shards_missing: Vec<u32>,
     /// Pictures with units that are not done: places in the plan.
@@ -50,14 +52,16 @@ impl Status {
 ///
 /// **Errors:** records that are damaged or foreign.
 pub fn status(plan: &Plan, store: &Store) -> Result<Status, BatchError> {
-    let mut status =
-        Status { units: plan.units(), done: 0, shards_missing: vec![], pictures_missing: vec![] };
+    let mut status = Status { units: plan.units(), ..Status::default() };
     let mut shards = std::collections::BTreeSet::new();
     for (place, picture) in plan.pictures.iter().enumerate() {
         let before = status.done;
         for unit in picture.first_unit..picture.first_unit + picture.units {
             match store.record(unit)? {
-                Some(_) => status.done += 1,
+                Some(record) => {
+                    status.done += 1;
+                    status.nan_samples += record.nan_samples;
+                }
                 None => drop(shards.insert((unit % u64::from(plan.shards)) as u32)),
             }
         }
@@ -76,13 +80,12 @@ pub fn status(plan: &Plan, store: &Store) -> Result<Status, BatchError> {
 pub fn merge(plan: &Plan, folder: &Path, store: &Store, partial: bool) -> Result<u64, BatchError> {
     plan.check_sources(folder)?;
     let source = Source::read(&plan.scene, &folder.join(&plan.root))?;
-    let workers = rayon::ThreadPoolBuilder::new().num_threads(super::default_threads()).build();
     let there = |picture: &Picture| match plan.split {
         Split::Frames => whole(picture, store),
         Split::Tiles | Split::Samples => joined(plan, picture, store, &source, partial),
     };
     let count = || plan.pictures.par_iter().map(|picture| there(picture).map(u64::from)).sum();
-    workers.map_err(RenderError::from)?.install(count)
+    workers()?.install(count)
 }
 
 /// Whether a picture that is one unit is there, as it was written.
@@ -135,7 +138,7 @@ mod tests {
     fn missing_shards_read_like_slurm_wants_them() {
         let array = |shards_missing: &[u32]| {
             let shards_missing = shards_missing.to_vec();
-            Status { units: 9, done: 0, shards_missing, pictures_missing: vec![] }.array()
+            Status { units: 9, shards_missing, ..Status::default() }.array()
         };
         assert_eq!(array(&[4, 7, 8, 9]).as_deref(), Some("--array=4,7-9"));
         assert_eq!(array(&[0]).as_deref(), Some("--array=0"));

@@ -19,6 +19,7 @@ struct Header {
     plan: String,
     unit: u64,
     tiles: Vec<usize>,
+    nan_samples: u64,
 }
 
 /// The tiles of a unit, each done or not.
@@ -27,6 +28,8 @@ pub(super) struct Part {
     pub(super) unit: Unit,
     pub(super) tiles: Vec<Rect>,
     pub(super) sums: Vec<Option<TileSums>>,
+    /// Contributions to these sums that were left out because they were not numbers.
+    pub(super) nan_samples: u64,
     nodes: usize,
     channels: usize,
 }
@@ -43,6 +46,7 @@ impl Part {
         Self {
             sums: vec![None; tiles.len()],
             tiles,
+            nan_samples: 0,
             nodes: node_places(blocks.start, blocks.end).len(),
             channels,
             unit,
@@ -52,7 +56,7 @@ impl Part {
     /// The same unit with nothing done and no tiles to do.
     pub(super) fn emptied(&self) -> Self {
         let unit = self.unit.clone();
-        Self { unit, tiles: Vec::new(), sums: Vec::new(), nodes: self.nodes, channels: self.channels }
+        Self { tiles: Vec::new(), sums: Vec::new(), nan_samples: 0, unit, ..*self }
     }
 
     /// Numbers of the tiles that are not done.
@@ -68,7 +72,8 @@ impl Part {
     /// The file.
     pub(super) fn encode(&self, plan: &str) -> Vec<u8> {
         let done: Vec<usize> = (0..self.sums.len()).filter(|&tile| self.sums[tile].is_some()).collect();
-        let header = Header { plan: plan.to_owned(), unit: self.unit.number, tiles: done };
+        let (unit, nan_samples) = (self.unit.number, self.nan_samples);
+        let header = Header { plan: plan.to_owned(), unit, tiles: done, nan_samples };
         let mut bytes = MAGIC.as_bytes().to_vec();
         serde_json::to_writer(&mut bytes, &header).expect("a header has only text and numbers");
         bytes.push(b'\n');
@@ -92,6 +97,7 @@ impl Part {
         if header.unit != self.unit.number {
             return Err(format!("belongs to unit {}, not {}", header.unit, self.unit.number));
         }
+        self.nan_samples = header.nan_samples;
         for tile in header.tiles {
             let pixels = self.tiles.get(tile).map(|rect| rect[2] as usize * rect[3] as usize);
             let pixels = pixels.ok_or_else(|| format!("has a tile {tile} that the unit has not"))?;
@@ -141,6 +147,7 @@ mod tests {
             let nodes = (0..2 * pixels).map(|i| [i as f32, f32::NAN, -0.0, 16.0]).collect();
             part.sums[tile] = Some(TileSums { nodes, aovs: (0..2 * pixels as u32).collect() });
         }
+        part.nan_samples = 7;
         part
     }
 
@@ -148,7 +155,7 @@ mod tests {
     fn what_is_written_comes_back_bit_for_bit() {
         let bytes = filled().encode("plan");
         let back = empty().decode(&bytes, "plan").unwrap();
-        assert_eq!(back.missing(), [1, 3]);
+        assert_eq!((back.missing(), back.nan_samples), (vec![1, 3], 7));
         assert_eq!(back.encode("plan"), bytes);
     }
 

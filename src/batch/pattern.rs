@@ -30,7 +30,12 @@ pub(super) fn path(pattern: &str, names: &Names) -> Result<String, String> {
             "output `{path}` must lie below the output folder: neither absolute nor with `..`"
         ));
     }
-    Ok(path)
+    Ok(plain(&path))
+}
+
+/// The path without `.` and doubled separators: one spelling for one file.
+fn plain(path: &str) -> String {
+    path.split('/').filter(|part| !matches!(*part, "" | ".")).collect::<Vec<_>>().join("/")
 }
 
 /// Whether a path stays in the folder that it starts from.
@@ -118,6 +123,7 @@ mod tests {
             "turn/left/0002-30.0-7.png"
         );
         assert_eq!(made("#{k}.png").unwrap(), "7a_b.png");
+        assert_eq!(made("./a//./#.png").unwrap(), "a/7.png");
         assert_eq!(hashes("##", -3), "-03");
     }
 

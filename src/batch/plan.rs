@@ -10,8 +10,10 @@ use super::job::Job;
 use super::paths::relative;
 use super::picture::Picture;
 use super::source::Source;
+use super::threads::workers;
 use super::unit::{Cut, Unit};
 use super::{BatchError, Shard};
+use crate::film::AovSet;
 use crate::output::write_atomically;
 
 /// The first words of a plan, with the version of its format.
@@ -74,7 +76,7 @@ pub struct Cost {
     pub pictures: u64,
     /// Units.
     pub units: u64,
-    /// Camera samples.
+    /// Camera samples; the greatest number stands for more.
     pub samples: u64,
 }
 
@@ -86,14 +88,14 @@ impl Plan {
         let source = Source::read(&job.scene, &job.folder)?;
         let mut files = Files::default();
         files.see(source.scene());
-        let mut pictures = pictures(job, &source, &mut files)?;
+        let mut pictures = workers()?.install(|| pictures(job, &source, &mut files))?;
         let mut units = 0;
         for picture in &mut pictures {
             picture.first_unit = units;
             picture.units = Cut::of(split, shards, picture).units();
             units += picture.units;
         }
-        let samples = pictures.iter().map(Picture::samples).sum();
+        let samples = pictures.iter().map(Picture::samples).fold(0, u64::saturating_add);
         Ok(Self {
             format: FORMAT.into(),
             octray: env!("CARGO_PKG_VERSION").into(),
@@ -181,6 +183,15 @@ impl Plan {
         let picture = self.pictures.partition_point(|p| p.first_unit <= number) - 1;
         let found = &self.pictures[picture];
         Cut::of(self.split, self.shards, found).unit(number, picture, number - found.first_unit)
+    }
+
+    /// About how many bytes a unit takes while it is in work.
+    pub(super) fn size_bytes(&self, unit: u64) -> u64 {
+        let unit = self.unit(unit);
+        let files = &self.pictures[unit.picture].outputs;
+        let aovs: AovSet = files.iter().flat_map(|file| &file.aovs).copied().collect();
+        let channels: usize = aovs.iter().map(|aov| aov.channels().len()).sum();
+        unit.size_bytes(self.split, channels as u64, files.len() as u64)
     }
 
     /// Units of a shard, or all.

@@ -13,6 +13,8 @@ pub(super) struct Record {
     format: String,
     plan: String,
     unit: u64,
+    /// Contributions that were left out because they were not numbers.
+    pub(super) nan_samples: u64,
     pub(super) files: Vec<Kept>,
 }
 
@@ -33,8 +35,8 @@ impl Kept {
 }
 
 impl Record {
-    pub(super) fn new(plan: &str, unit: u64, files: Vec<Kept>) -> Self {
-        Self { format: FORMAT.into(), plan: plan.into(), unit, files }
+    pub(super) fn new(plan: &str, unit: u64, nan_samples: u64, files: Vec<Kept>) -> Self {
+        Self { format: FORMAT.into(), plan: plan.into(), unit, nan_samples, files }
     }
 
     pub(super) fn to_bytes(&self) -> Vec<u8> {
@@ -51,6 +53,7 @@ impl Record {
             record if record.format != FORMAT => Err(format!("has the format `{}`", record.format)),
             record if record.plan != plan => Err("belongs to another plan".into()),
             record if record.unit != unit => Err(format!("belongs to unit {}, not {unit}", record.unit)),
+            record if record.files.is_empty() => Err("names no file".into()),
             record => Ok(record),
         }
     }
@@ -62,10 +65,12 @@ mod tests {
 
     #[test]
     fn only_whole_records_of_the_unit_count() {
-        let record = Record::new("plan", 3, vec![Kept::of("a.png".into(), b"abc")]);
+        let record = Record::new("plan", 3, 5, vec![Kept::of("a.png".into(), b"abc")]);
         let bytes = record.to_bytes();
         assert_eq!(Record::parse(&bytes, "plan", 3), Ok(record));
         assert!(Record::parse(&bytes, "other", 3).unwrap_err().contains("another plan"));
+        let empty = Record::new("plan", 3, 0, Vec::new()).to_bytes();
+        assert!(Record::parse(&empty, "plan", 3).unwrap_err().contains("no file"));
         assert!(Record::parse(&bytes, "plan", 4).unwrap_err().contains("unit 3"));
         for length in 0..bytes.len() - 1 {
             assert!(Record::parse(&bytes[..length.min(bytes.len() - 2)], "plan", 3).is_err());

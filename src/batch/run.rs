@@ -5,6 +5,7 @@
 
 mod active;
 mod finish;
+mod left;
 mod queue;
 
 use std::path::Path;
@@ -15,9 +16,10 @@ use std::time::{Duration, Instant};
 use super::scenes::Scenes;
 use super::source::Source;
 use super::{BatchError, Plan, Shard, Store};
-use crate::wavefront::Progress;
+use crate::wavefront::{Progress, Scratch};
 use finish::{Finished, write_all};
-use queue::{Queue, Task};
+use left::{Left, left};
+use queue::{Queue, Task, Waiting};
 
 /// How units are rendered; nothing here changes their bytes.
 #[derive(Clone, Copy)]
@@ -28,7 +30,7 @@ pub struct RunOptions<'a> {
     pub threads: usize,
     /// How often what is done of a unit is kept.
     pub checkpoint_every: Duration,
-    /// Most memory for scenes that are kept for other pictures.
+    /// Most memory for units in work and for scenes that are kept for others; one unit is worked at even if it takes more.
     pub max_memory_bytes: u64,
     /// Start no further unit after one has failed.
     pub fail_fast: bool,
@@ -72,6 +74,8 @@ pub struct RunReport {
     pub failures: Vec<Failure>,
     /// Rays traced.
     pub rays: u64,
+    /// Contributions left out because they were not numbers, in all units that are done, now or before.
+    pub nan_samples: u64,
     /// Whether it was stopped before the end.
     pub stopped: bool,
     /// Wall time.
@@ -84,13 +88,14 @@ pub struct RunReport {
 pub fn run(plan: &Plan, folder: &Path, store: &Store, options: &RunOptions) -> Result<RunReport, BatchError> {
     let begun = Instant::now();
     plan.check_sources(folder)?;
-    let (to_do, done_before) = left(plan, store, options.shard)?;
+    let Left { to_do, done: done_before, nan_samples } = left(plan, store, options.shard)?;
     let source = Source::read(&plan.scene, &folder.join(&plan.root))?;
     let scenes = Scenes::new(&source, &plan.sets, options.threads, options.max_memory_bytes)?;
     options.watch.begin(to_do.len() as u64, done_before);
-    let total = to_do.iter().map(|&unit| plan.unit(unit).cost()).sum();
-    let work =
-        Work { plan, store, scenes, options, total, counts: Counts::default(), queue: Queue::new(to_do) };
+    let total = to_do.iter().map(|&unit| plan.unit(unit).cost()).fold(0, u64::saturating_add);
+    let waiting = to_do.into_iter().map(|unit| Waiting { unit, size_bytes: plan.size_bytes(unit) });
+    let queue = Queue::new(waiting.collect(), options.max_memory_bytes);
+    let work = Work { plan, store, scenes, options, total, counts: Counts::default(), queue };
     work.all();
     let counts = work.counts;
     Ok(RunReport {
@@ -98,21 +103,10 @@ pub fn run(plan: &Plan, folder: &Path, store: &Store, options: &RunOptions) -> R
         done_before,
         failures: counts.failures.into_inner().expect("no thread panics while it notes a failure"),
         rays: counts.rays.into_inner(),
+        nan_samples: nan_samples + counts.nan_samples.into_inner(),
         stopped: options.stop.load(Relaxed),
         time: begun.elapsed(),
     })
-}
-
-/// The units that are not done, and how many are.
-fn left(plan: &Plan, store: &Store, shard: Option<Shard>) -> Result<(Vec<u64>, u64), BatchError> {
-    let (mut to_do, mut done) = (Vec::new(), 0);
-    for unit in plan.units_of(shard) {
-        match store.record(unit)? {
-            Some(_) => done += 1,
-            None => to_do.push(unit),
-        }
-    }
-    Ok((to_do, done))
 }
 
 /// What the threads of a run share.
@@ -132,6 +126,7 @@ struct Counts {
     units: AtomicU64,
     samples: AtomicU64,
     rays: AtomicU64,
+    nan_samples: AtomicU64,
     failures: Mutex<Vec<Failure>>,
 }
 
@@ -152,30 +147,35 @@ impl Work<'_> {
         });
         for active in self.queue.left() {
             if let Err(error) = active.keep(self.store) {
-                self.failed(active.unit(), &error);
+                self.failed(active.of.unit, &error);
             }
         }
     }
 
     /// One thread: opens units, paints their tiles, until there is nothing to do.
     fn work(&self, finished: &std::sync::mpsc::SyncSender<Finished>) {
+        let mut scratch = Scratch::default();
         while let Some(task) = self.queue.next(|| self.is_stopped()) {
             let active = match task {
                 Task::Join(active) => active,
-                Task::Open(unit) => match self.open(unit) {
+                Task::Open(waiting) => match self.open(waiting) {
                     Ok(active) => self.queue.opened(active),
                     Err(error) => {
-                        self.failed(unit, &error);
+                        self.failed(waiting.unit, &error);
                         self.queue.gave_up();
+                        self.queue.release(waiting.size_bytes);
                         continue;
                     }
                 },
             };
-            if active.paint(self) {
+            if active.paint(self, &mut scratch) {
                 self.queue.close(&active);
                 match finish::encoded(self, &active) {
                     Ok(done) => finished.send(done).expect("writers outlive workers"),
-                    Err(error) => self.failed(active.unit(), &error),
+                    Err(error) => {
+                        self.failed(active.of.unit, &error);
+                        self.queue.release(active.of.size_bytes);
+                    }
                 }
             }
         }
@@ -203,5 +203,5 @@ impl Work<'_> {
     }
 }
 
-/// Threads that write files: enough to wait for a disk while another file is on its way.
-const WRITERS: usize = 2;
+/// Threads that write files. Nearly all they do is wait for the disk, and many files can be on their way to it at once.
+const WRITERS: usize = 8;

@@ -49,14 +49,14 @@ impl<'a> Scenes<'a> {
         Ok(Self { source, common, workers, max_bytes, meshes, kept: Mutex::default() })
     }
 
-    /// The scene of a picture with these changes.
-    pub(super) fn scene(&self, sets: &[String]) -> Result<Scene, BatchError> {
+    /// The scene of a picture with these changes; `taken` bytes of the memory are other things'.
+    pub(super) fn scene(&self, sets: &[String], taken: u64) -> Result<Scene, BatchError> {
         let sets: Vec<String> = self.common.iter().chain(sets).cloned().collect();
         let description = self.source.with(&sets)?;
         let (entry, like) = self.entry(&description);
         let compile = || self.compile(&description, like.as_deref());
         let shared = entry.slot.get_or_init(compile).clone().map_err(BatchError::Job)?;
-        self.make_room();
+        self.make_room(self.max_bytes.saturating_sub(taken));
         Ok(shared.seen_by(&description)?)
     }
 
@@ -87,18 +87,18 @@ impl<'a> Scenes<'a> {
         self.kept.lock().expect("nobody panics while scenes are looked up")
     }
 
-    /// Forgets what was not used for longest until the rest fits; the last scene stays.
-    fn make_room(&self) {
+    /// Forgets what was not used for longest until the rest fits into so many bytes; the last scene stays.
+    fn make_room(&self, max_bytes: u64) {
         let mut kept = self.kept();
         let size = |entry: &Entry| match entry.slot.get() {
             Some(Ok(scene)) => scene.size_bytes(),
             _ => 0,
         };
         let mut total: u64 = kept.iter().map(size).sum();
-        if total + self.meshes.size_bytes() > self.max_bytes {
+        if total + self.meshes.size_bytes() > max_bytes {
             self.meshes.forget();
         }
-        while total > self.max_bytes && kept.len() > 1 {
+        while total > max_bytes && kept.len() > 1 {
             // Trees that others are moved from go last.
             let at = kept[..kept.len() - 1].iter().position(|entry| !entry.is_built).unwrap_or(0);
             total -= size(&kept.remove(at));

@@ -27,8 +27,7 @@ impl Source {
     /// Reads a scene file or mesh relative to `folder`, or a built-in scene.
     pub(super) fn read(name: &str, folder: &Path) -> Result<Self, BatchError> {
         if !is_file(name) {
-            let scene = describe::builtin(name)?
-                .ok_or_else(|| BatchError::Job(format!("there is no built-in scene `{name}`")))?;
+            let scene = describe::builtin(name)?.ok_or_else(|| BatchError::Job(unknown(name)))?;
             let bytes = scene.to_toml().into_bytes();
             return Ok(Self { name: name.to_owned(), scene, bytes });
         }
@@ -55,6 +54,12 @@ impl Source {
     pub(super) fn scene(&self) -> &SceneDescription {
         &self.scene
     }
+}
+
+fn unknown(name: &str) -> String {
+    let known: Vec<&str> = describe::builtin_scenes().iter().map(|scene| scene.usage).collect();
+    let known = known.join(", ");
+    format!("there is no built-in scene `{name}`: expected one of {known}, or a file's name with its ending")
 }
 
 fn is_mesh(path: &Path) -> bool {

@@ -8,6 +8,7 @@ use std::io::ErrorKind;
 use std::path::{Path, PathBuf};
 
 use super::assets::hash;
+use super::neighbours;
 use super::part::Part;
 use super::record::{Kept, Record};
 use super::{BatchError, Plan};
@@ -25,7 +26,8 @@ pub struct Store {
 impl Store {
     /// The state of `plan` in an output folder, which is made if need be.
     ///
-    /// **Errors:** [`BatchError::Changed`] if the folder holds work of another plan, unless `anew`: then that is forgotten.
+    /// **Errors:** [`BatchError::Changed`] if the folder holds work of another plan by this name, or pictures of another job
+    /// that would be replaced; unless `anew`: then they are.
     pub fn open(output: &Path, plan: &Plan, anew: bool) -> Result<Self, BatchError> {
         let store = Self::at(output, plan);
         if anew {
@@ -33,6 +35,9 @@ impl Store {
         }
         store.make_folder(&store.folder)?;
         if !store.has_begun(plan)? {
+            if !anew {
+                neighbours::check(output, &store.folder, plan)?;
+            }
             plan.write(&store.plan_path())?;
         }
         Ok(store)
@@ -99,19 +104,25 @@ impl Store {
 
     /// Writes a file below the output folder, making the folders on its way.
     pub(super) fn write(&self, path: &Path, bytes: &[u8]) -> Result<(), BatchError> {
-        if let Some(folder) = path.parent() {
-            self.make_folder(folder)?;
+        match (write_atomically(path, bytes), path.parent()) {
+            (Err(error), Some(folder)) if error.is_not_found() => self.make_folder(folder)?,
+            (outcome, _) => return Ok(outcome?),
         }
         Ok(write_atomically(path, bytes)?)
     }
 
     /// Writes the files of a unit, then the record that says so.
-    pub(super) fn finish(&self, unit: u64, files: &[(String, Vec<u8>)]) -> Result<(), BatchError> {
+    pub(super) fn finish(
+        &self,
+        unit: u64,
+        nan_samples: u64,
+        files: &[(String, Vec<u8>)],
+    ) -> Result<(), BatchError> {
         for (path, bytes) in files {
             self.write(&self.resolve(path), bytes)?;
         }
         let kept = files.iter().map(|(path, bytes)| Kept::of(path.clone(), bytes)).collect();
-        let record = Record::new(&self.plan, unit, kept);
+        let record = Record::new(&self.plan, unit, nan_samples, kept);
         self.write(&self.unit_path(unit, "json"), &record.to_bytes())?;
         // Only now: until the record stands, a checkpoint is worth something.
         let _ = fs::remove_file(self.unit_path(unit, "checkpoint"));

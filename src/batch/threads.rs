@@ -1,9 +1,18 @@
 //! How many threads this process should use.
 
+use super::BatchError;
+use crate::wavefront::RenderError;
+
 /// The processors that this process may use: by affinity, control group and `SLURM_CPUS_PER_TASK`, whichever is least.
 pub fn default_threads() -> usize {
     let allowed = std::thread::available_parallelism().map_or(1, usize::from);
     limited(allowed, std::env::var("SLURM_CPUS_PER_TASK").ok().as_deref())
+}
+
+/// A pool of that many.
+pub(super) fn workers() -> Result<rayon::ThreadPool, BatchError> {
+    let workers = rayon::ThreadPoolBuilder::new().num_threads(default_threads()).build();
+    Ok(workers.map_err(RenderError::from)?)
 }
 
 fn limited(allowed: usize, slurm: Option<&str>) -> usize {

@@ -80,6 +80,20 @@ impl Unit {
             ..u64::from(self.samples.end.div_ceil(SAMPLES_PER_BLOCK))
     }
 
+    /// About how many bytes it takes until its files are written: its sums, its film, and `files` of them encoded, where
+    /// pixels have so many `channels` beside colour.
+    pub(super) fn size_bytes(&self, split: Split, channels: u64, files: u64) -> u64 {
+        let pixels = u64::from(self.rect[2]) * u64::from(self.rect[3]);
+        // As many nodes as the number of blocks has digits.
+        let nodes = u64::from(u64::BITS - (self.blocks().end - self.blocks().start).leading_zeros());
+        let (sums, film) = (16 * nodes + 4 * channels, 12 + 4 * channels);
+        let written = match split {
+            Split::Frames => film * (2 + files),
+            Split::Tiles | Split::Samples => sums,
+        };
+        pixels.saturating_mul(sums + written)
+    }
+
     /// Camera samples.
     pub(super) fn cost(&self) -> u64 {
         u64::from(self.rect[2]) * u64::from(self.rect[3]) * u64::from(self.samples.end - self.samples.start)
@@ -96,6 +110,15 @@ mod tests {
         let picture = Picture { name, sets, size, spp, outputs, first_unit: 0, units: 0 };
         let cut = Cut::of(split, shards, &picture);
         (0..cut.units()).map(|part| cut.unit(part, 0, part)).collect()
+    }
+
+    #[test]
+    fn memory_grows_with_pixels_samples_and_channels() {
+        let unit = |size, spp| units(Split::Frames, 1, size, spp).remove(0);
+        let bytes = |size, spp, channels| unit(size, spp).size_bytes(Split::Frames, channels, 1);
+        assert_eq!(bytes([10, 10], 1, 0), 100 * (16 + 3 * 12));
+        assert_eq!(bytes([10, 10], 48, 0), 100 * (2 * 16 + 3 * 12));
+        assert_eq!(bytes([20, 10], 1, 5), 200 * (36 + 3 * 32));
     }
 
     proptest! {

@@ -65,8 +65,8 @@ pub enum Verb {
     Tradeoff(TradeoffArgs),
     /// List the built-in scenes, or print one as a scene file
     Scenes(ScenesArgs),
-    /// Print the JSON Schema of scene files
-    Schema,
+    /// Print the JSON Schema of scene files or of job files
+    Schema(SchemaArgs),
     /// Print the completion script of a shell
     Completions(CompletionsArgs),
     /// Print a manual page (to read it: octray man | man -l -)
@@ -204,6 +204,23 @@ impl From<Tier> for TierName {
             Tier::Exact => Self::Exact,
         }
     }
+}
+
+/// Arguments of `octray schema`.
+#[derive(Debug, clap::Args)]
+pub struct SchemaArgs {
+    /// Of which files
+    #[arg(value_name = "WHICH", default_value = "scene")]
+    pub of: SchemaOf,
+}
+
+/// Files that users write.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum SchemaOf {
+    /// Scene files
+    Scene,
+    /// Job files
+    Job,
 }
 
 /// How progress is shown.

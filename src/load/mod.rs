@@ -30,6 +30,7 @@ use std::path::Path;
 pub use described::load_described;
 pub use error::LoadError;
 pub use kept::KeptMeshes;
+pub use mtl::material_files;
 pub use terrain::terrain;
 pub use texture::{Texture, load_texture, srgb_to_linear};
 

@@ -38,6 +38,19 @@ pub(super) fn load_all(obj: &Path, text: &ObjText) -> Result<Vec<Library>, LoadE
     Ok(libraries)
 }
 
+/// The MTL files that an OBJ file names, and the textures that those name.
+///
+/// **Errors:** as loading the mesh.
+pub fn material_files(obj: &Path) -> Result<Vec<PathBuf>, LoadError> {
+    let bytes = std::fs::read(obj).map_err(|source| LoadError::Read { path: obj.to_owned(), source })?;
+    let text = super::obj_text::prepare(&String::from_utf8_lossy(&bytes))
+        .map_err(|(line, message)| malformed(obj, Some(line), message))?;
+    let folder = obj.parent().unwrap_or(Path::new(""));
+    let named = text.libraries.iter().flat_map(|(_, names)| files(folder, names));
+    let textures = load_all(obj, &text)?.into_iter().flat_map(|library| library.materials);
+    Ok(named.chain(textures.filter_map(|material| material.texture)).collect())
+}
+
 /// A line may name one file with spaces or several files.
 fn files(folder: &Path, names: &str) -> Vec<PathBuf> {
     let whole = folder.join(unified(names));

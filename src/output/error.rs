@@ -42,3 +42,10 @@ pub enum OutputError {
         reason: String,
     },
 }
+
+impl OutputError {
+    /// Whether the file's folder, or the file itself, is not there.
+    pub(crate) fn is_not_found(&self) -> bool {
+        matches!(self, Self::Write { cause, .. } | Self::Read { cause, .. } if cause.kind() == io::ErrorKind::NotFound)
+    }
+}

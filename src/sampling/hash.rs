@@ -34,14 +34,19 @@ pub fn unit<L: Lane>(word: L::Bits) -> L {
 }
 
 /// Two key words from a seed: seeds 0, 1, 2 ... give unrelated keys.
+pub(super) fn key(seed: u64) -> [u32; 2] {
+    let z = splitmix64(seed);
+    [z as u32, (z >> 32) as u32]
+}
+
+/// One number for another, each once: 0, 1, 2 ... give unrelated ones.
 ///
 /// **Source:** Steele, Lea and Flood, Fast Splittable Pseudorandom Number Generators, 2014, the `SplitMix64` output.
-pub(super) fn key(seed: u64) -> [u32; 2] {
+pub(crate) fn splitmix64(seed: u64) -> u64 {
     let mut z = seed.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-    z ^= z >> 31;
-    [z as u32, (z >> 32) as u32]
+    z ^ (z >> 31)
 }
 
 #[cfg(test)]

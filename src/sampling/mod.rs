@@ -16,6 +16,7 @@ mod warp;
 
 pub use dimension::{FILTER, LENS, ScatterDraw, bounce, child_branch};
 pub use filter::{FilterSampler, PixelFilter};
+pub(crate) use hash::splitmix64;
 pub use hash::{pcg4d, unit};
 pub use sampler::{Sampler, SamplerKind};
 pub use warp::{concentric_disk, cosine_hemisphere, cosine_hemisphere_pdf, frame, to_frame};

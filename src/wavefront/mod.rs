@@ -27,7 +27,7 @@ mod wave_runner;
 
 pub use adaptive::{Goal, Reached};
 pub(crate) use offset::offset_along;
-pub(crate) use paint::{Painted, Tiles, paint};
+pub(crate) use paint::{Painted, Scratch, Tiles, paint};
 pub use render::{Progress, RenderError, RenderOptions, RenderReport, render};
 pub(crate) use surface::{HitLanes, evaluate};
 pub(crate) use tile::{Rect, mean, pixels, tiles};

@@ -2,6 +2,8 @@
 
 use std::ops::Range;
 
+use bumpalo::Bump;
+
 use super::run::CHUNK;
 use super::tile::{Rect, Sums, pixels};
 use super::wave::{Frame, WaveCounts, WaveSamples};
@@ -34,32 +36,42 @@ pub(crate) trait Tiles {
     fn done(&self, painted: Painted<'_>);
 }
 
+/// One thread's memory, to be kept for its next picture: the system gives pages slowly.
+#[derive(Default)]
+pub(crate) struct Scratch {
+    arenas: Vec<Bump>,
+    pixels: Vec<[u32; 2]>,
+    sums: Sums,
+    seen: Vec<AovSample>,
+}
+
 /// Renders samples of the pixels of tiles until there are no more tiles, on this thread.
 ///
 /// **Needs:** `samples` begins with a block of [`SAMPLES_PER_BLOCK`], and ends with one or at the scene's last sample.
-pub(crate) fn paint(scene: &Scene, samples: Range<u32>, tiles: &impl Tiles) {
+pub(crate) fn paint(scene: &Scene, samples: Range<u32>, tiles: &impl Tiles, scratch: &mut Scratch) {
     match scene.settings.tier {
-        TierName::Fast => paint_tier::<Fast>(scene, samples, tiles),
-        TierName::Watertight => paint_tier::<Watertight>(scene, samples, tiles),
-        TierName::Exact => paint_tier::<Exact>(scene, samples, tiles),
+        TierName::Fast => paint_tier::<Fast>(scene, samples, tiles, scratch),
+        TierName::Watertight => paint_tier::<Watertight>(scene, samples, tiles, scratch),
+        TierName::Exact => paint_tier::<Exact>(scene, samples, tiles, scratch),
     }
 }
 
-fn paint_tier<T: Tier>(scene: &Scene, samples: Range<u32>, tiles: &impl Tiles) {
+fn paint_tier<T: Tier>(scene: &Scene, samples: Range<u32>, tiles: &impl Tiles, scratch: &mut Scratch) {
     let Some(first) = tiles.next() else { return };
     let frame = Frame::new(scene);
-    let mut painter = Painter::<T>::new(&frame, samples);
+    let mut painter = Painter::<T>::new(&frame, samples, std::mem::take(scratch));
     let mut next = Some(first);
     while let Some(tile) = next {
         if !painter.render(tile, || tiles.cancelled()) {
-            return;
+            break;
         }
         tiles.done(painter.painted(tile));
         next = tiles.next();
     }
+    *scratch = painter.into_scratch();
 }
 
-/// One thread's scratch.
+/// One thread at one picture.
 struct Painter<'a, T: Tier> {
     waves: WaveRunner<'a, T>,
     samples: Range<u32>,
@@ -69,9 +81,13 @@ struct Painter<'a, T: Tier> {
 }
 
 impl<'a, T: Tier> Painter<'a, T> {
-    fn new(frame: &'a Frame<'a>, samples: Range<u32>) -> Self {
-        let waves = WaveRunner::new(frame);
-        Self { waves, samples, pixels: Vec::new(), sums: Vec::new(), seen: Vec::new() }
+    fn new(frame: &'a Frame<'a>, samples: Range<u32>, scratch: Scratch) -> Self {
+        let Scratch { arenas, pixels, sums, seen } = scratch;
+        Self { waves: WaveRunner::with_arenas(frame, arenas), samples, pixels, sums, seen }
+    }
+
+    fn into_scratch(self) -> Scratch {
+        Scratch { arenas: self.waves.into_arenas(), pixels: self.pixels, sums: self.sums, seen: self.seen }
     }
 
     /// What the last render gave.

@@ -4,7 +4,7 @@ use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
 
 use super::adaptive::{self, Goal, Reached};
-use super::paint::paint;
+use super::paint::{Scratch, paint};
 use super::shared::{Finished, Shared};
 use super::tile::Rect;
 use super::wave::{Frame, RayCounts};
@@ -88,7 +88,7 @@ pub fn render(scene: &Scene, options: &RenderOptions) -> Result<(Film, RenderRep
     let shared = Shared::new(scene, part, options);
     let reached = match options.goal {
         None => {
-            pool.broadcast(|_| paint(scene, 0..scene.settings.spp, &shared));
+            pool.broadcast(|_| paint(scene, 0..scene.settings.spp, &shared, &mut Scratch::default()));
             None
         }
         Some(goal) => Some(pool.install(|| match scene.settings.tier {

@@ -24,10 +24,18 @@ pub(super) struct WaveRunner<'a, T: Tier> {
 
 impl<'a, T: Tier> WaveRunner<'a, T> {
     pub(super) fn new(frame: &'a Frame<'a>) -> Self {
+        Self::with_arenas(frame, Vec::new())
+    }
+
+    /// The same with arenas of another one, whose memory the system has already given.
+    pub(super) fn with_arenas(frame: &'a Frame<'a>, mut arenas: Vec<Bump>) -> Self {
         let scene = frame.scene;
         // One for the camera rays, one for each depth.
         let depths =
             if scene.requirements.children() == 0 { 1 } else { scene.settings.max_depth as usize + 1 };
+        while arenas.len() <= depths {
+            arenas.push(Bump::with_capacity(ARENA));
+        }
         Self {
             worker: Worker {
                 frame,
@@ -35,11 +43,16 @@ impl<'a, T: Tier> WaveRunner<'a, T> {
                 radiance: SampleSums::default(),
                 rays: RayCounts::default(),
             },
-            arenas: (0..=depths).map(|_| Bump::with_capacity(ARENA)).collect(),
+            arenas,
             weights: Vec::new(),
             samples: 0,
             nan_samples: 0,
         }
+    }
+
+    /// The arenas, for another one.
+    pub(super) fn into_arenas(self) -> Vec<Bump> {
+        self.arenas
     }
 
     /// Traces a wave; gives each slot and its sample (three channels times the weight, and the weight), sample by sample.

@@ -36,6 +36,43 @@ fn bad_jobs_name_the_file_the_line_and_what_was_expected() {
     }
 }
 
+/// However it is spelled.
+#[test]
+fn two_outputs_are_not_one_file() {
+    let job = "scene = \"seed\"\n[[output]]\npath = \"a/b.png\"\n[[output]]\npath = \"./a//b.png\"\n";
+    let folder = folder(job);
+    fails(folder.path(), "plan turn.toml", 3, &["two [[output]] of the job are the same file `a/b.png`"]);
+}
+
+#[test]
+fn jobs_beyond_all_bounds_are_refused_at_once() {
+    let output = "[[output]]\npath = \"{sweep}.#.png\"\n";
+    for job in [
+        "frames = \"1-1000001\"\n",
+        "frames = \"1-100000\"\n[sweep]\n\"render.seed\" = { range = [0, 100000] }\n",
+        "frames = \"1-1000\"\n[[camera]]\nname = \"a\"\n[[camera]]\nname = \"b\"\n[sweep]\n\"render.seed\" = { range = [0, 501] }\n",
+        "[sweep]\n\"render.seed\" = { range = [0, 1000] }\n\"render.spp\" = { range = [1, 1002] }\n",
+    ] {
+        let folder = folder(&format!("scene = \"seed\"\n{job}{output}"));
+        fails(folder.path(), "plan turn.toml", 3, &["more than 1000000"]);
+    }
+    let folder = folder("scene = \"seed\"\n");
+    std::fs::write(folder.path().join("turn.toml"), b"scene = \"seed\"\n# \xff\n").unwrap();
+    fails(folder.path(), "plan turn.toml", 3, &["turn.toml:2", "UTF-8"]);
+}
+
+/// More samples than a number of 64 bits counts.
+#[test]
+fn the_cost_of_endless_work_is_still_a_number() {
+    let folder = folder(
+        "scene = \"seed\"\nsize = [16384, 16384]\nspp = 4294967295\nframes = \"1-100\"\n[[output]]\npath = \"a.#.png\"\n",
+    );
+    done(folder.path(), "plan turn.toml");
+    let plan: serde_json::Value =
+        serde_json::from_slice(&std::fs::read(folder.path().join("turn.plan")).unwrap()).unwrap();
+    assert_eq!(plan["cost"]["samples"].as_u64(), Some(u64::MAX));
+}
+
 #[test]
 fn the_same_job_has_the_same_plan_bytes() {
     let folders = [folder(SMALL), folder(SMALL)];

@@ -1,11 +1,14 @@
 //! Many pictures as a user renders them: planned, interrupted, resumed, split, merged, and always the same bytes.
 
+mod checks;
 mod crash;
 mod disk;
 mod job;
 mod progress;
 mod readme;
 mod refusal;
+mod schema;
+mod seeds;
 mod shards;
 mod sharing;
 

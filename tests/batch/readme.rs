@@ -3,7 +3,7 @@
 use super::{done, folder, pictures};
 
 /// The job file that the README shows.
-fn job() -> String {
+pub(crate) fn job() -> String {
     let readme = std::fs::read_to_string(concat!(env!("CARGO_MANIFEST_DIR"), "/README.md")).unwrap();
     let begin = readme.find("cat > turn.toml <<'END'\n").expect("the README writes turn.toml");
     let text = readme[begin..].split_once('\n').unwrap().1;

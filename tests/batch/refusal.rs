@@ -44,6 +44,27 @@ fn a_changed_scene_or_asset_is_named() {
 }
 
 #[test]
+fn a_changed_material_file_is_named_however_the_mesh_names_it() {
+    for line in ["mtllib red.mtl", "mtllib \\\nred.mtl", "mtllib other.mtl \\\n  red.mtl", "mtllib\tred.mtl"]
+    {
+        let folder = with_mesh();
+        let path = folder.path();
+        fs::write(path.join("red.mtl"), "newmtl red\nKd 1 0 0\nmap_Kd red.png\n").unwrap();
+        fs::write(path.join("other.mtl"), "newmtl other\nKd 0 1 0\n").unwrap();
+        done(path, "render seed --size 4x4 --spp 1 -o red.png");
+        fs::write(path.join("mesh.obj"), format!("{line}\n{MESH}usemtl red\nf 1 2 4\n")).unwrap();
+        done(path, "plan turn.toml");
+        done(path, "batch turn.toml");
+        append(&path.join("red.mtl"), "Ns 3\n");
+        fails(path, "batch turn.toml", 3, &["red.mtl has changed", "--force"]);
+        fails(path, "run turn.plan", 3, &["red.mtl has changed since the plan was made"]);
+        done(path, "batch turn.toml --force");
+        done(path, "render seed --size 5x4 --spp 1 -o red.png");
+        fails(path, "batch turn.toml", 3, &["red.png has changed"]);
+    }
+}
+
+#[test]
 fn a_changed_job_does_not_mix_with_finished_work() {
     let folder = with_mesh();
     let path = folder.path();
@@ -142,4 +163,21 @@ fn damaged_checkpoints_are_refused_and_the_rest_goes_on() {
     }
     fs::remove_file(checkpoint).unwrap();
     done(path, "run turn.plan");
+}
+
+#[test]
+fn pictures_of_another_job_are_not_replaced() {
+    let folder = folder(SMALL);
+    let path = folder.path();
+    done(path, "batch turn.toml -o out");
+    let before = super::pictures(&path.join("out"));
+    let job = fs::read_to_string(path.join("turn.toml")).unwrap();
+    fs::write(path.join("other.toml"), job.replace("spp = 40", "spp = 4")).unwrap();
+    fails(path, "batch other.toml -o out", 3, &["turn.0001", "another job", "turn.octray", "--force"]);
+    super::assert_same(&super::pictures(&path.join("out")), &before);
+    done(path, "batch turn.toml -o out");
+    fs::write(path.join("third.toml"), job.replace("turn.####", "{name}.####")).unwrap();
+    done(path, "batch third.toml -o out");
+    done(path, "batch other.toml -o out --force");
+    assert!(super::pictures(&path.join("out"))["turn.0001.png"] != before["turn.0001.png"]);
 }

@@ -1,6 +1,6 @@
 //! One process, many pictures: what they share is made once, and memory does not grow with their number.
 
-use super::{assert_same, done, folder, pictures};
+use super::{assert_same, command, done, folder, pictures, told};
 
 /// Something that moves, by its own transform and by that of an instance.
 const MOVING: &str = r#"
@@ -86,26 +86,67 @@ fn cameras_and_seeds_share_one_scene() {
     assert_eq!(pictures(&folder.path().join("out")).len(), 20);
 }
 
+/// Peak memory of a batch.
+fn peak_bytes(folder: &std::path::Path, options: &str) -> u64 {
+    peak_of(&mut command(folder, &format!("batch turn.toml -o out --force --progress json {options}")))
+}
+
+fn peak_of(batch: &mut std::process::Command) -> u64 {
+    let output = batch.output().unwrap();
+    let said = told(&output);
+    assert!(output.status.success(), "{said}");
+    let last: serde_json::Value = serde_json::from_str(said.lines().last().unwrap()).unwrap();
+    last["peak_memory_bytes"].as_u64().expect("this system tells")
+}
+
 /// Peak memory of a batch whose pictures all have meshes of their own.
-fn peak_bytes(count: u32, max_memory: &str) -> u64 {
+fn peak_of_meshes(count: u32, max_memory: &str) -> u64 {
     let job = format!(
         "scene = \"scene.toml\"\nsize = [16, 12]\nspp = 1\n[sweep]\n\"mesh.0.procedural.seed\" = {{ range = [0, {count}] }}\n\
         [[output]]\npath = \"{{sweep}}.png\"\n"
     );
     let folder = folder(&job);
     std::fs::write(folder.path().join("scene.toml"), SCENE.replace("3000", "20000")).unwrap();
-    let said = done(
-        folder.path(),
-        &format!("batch turn.toml --threads 1 --progress json --max-memory {max_memory}"),
-    );
-    let last: serde_json::Value = serde_json::from_str(said.lines().last().unwrap()).unwrap();
-    last["peak_memory_bytes"].as_u64().expect("this system tells")
+    peak_bytes(folder.path(), &format!("--threads 1 --max-memory {max_memory}"))
 }
 
 #[cfg(target_os = "linux")]
 #[test]
 fn memory_stays_within_its_bound_however_many_pictures_there_are() {
-    let (few, many, unbounded) = (peak_bytes(5, "4M"), peak_bytes(60, "4M"), peak_bytes(60, "4G"));
+    let [few, many] = [5, 60].map(|count| peak_of_meshes(count, "4M"));
+    let unbounded = peak_of_meshes(60, "4G");
     assert!(many < few + (8 << 20), "{few} bytes for 5 scenes, {many} for 60");
     assert!(unbounded > many + (40 << 20), "{many} bytes with a bound, {unbounded} without");
+}
+
+/// The tolerance is what the plan's 490 pictures more and the allocator's moods may take.
+#[cfg(target_os = "linux")]
+#[test]
+fn memory_after_500_pictures_is_that_after_10() {
+    let peak = |pictures: u32| {
+        let job = format!(
+            "scene = \"seed\"\nsize = [32, 24]\nspp = 1\nframes = \"1-{pictures}\"\n[[output]]\npath = \"a.#.exr\"\n\
+            aovs = [\"depth\", \"object_id\"]\n"
+        );
+        peak_bytes(folder(&job).path(), "--threads 2")
+    };
+    let (few, many) = (peak(10), peak(500));
+    assert!(many < few + (4 << 20), "{few} bytes for 10 pictures, {many} for 500");
+}
+
+/// Pictures with much beside colour, some 20 MB each while they are worked at.
+#[cfg(target_os = "linux")]
+#[test]
+fn only_so_many_pictures_are_worked_at_as_memory_allows() {
+    let job = "scene = \"seed\"\nsize = [256, 256]\nspp = 1\nframes = \"1-24\"\n[[output]]\npath = \"a.#.exr\"\naovs = [\"depth\", \
+        \"position\", \"geometric_normal\", \"shading_normal\", \"uv\", \"object_id\", \"primitive_id\", \"albedo\"]\n";
+    let folder = folder(job);
+    let peak = |max: &str| {
+        let batch = format!("batch turn.toml -o out --force --progress json --threads 8 --max-memory {max}");
+        // The C library else keeps what each thread has given back.
+        peak_of(command(folder.path(), &batch).env("MALLOC_ARENA_MAX", "1"))
+    };
+    let [least, bounded, free] = ["1M", "60M", "4G"].map(peak);
+    assert!(least < 80 << 20 && bounded < 110 << 20, "{least} bytes for one at a time, {bounded} for 60M");
+    assert!(free > bounded + (40 << 20), "{bounded} bytes with a bound, {free} without");
 }

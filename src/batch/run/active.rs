@@ -5,17 +5,18 @@ use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::time::Instant;
 
 use super::Work;
+use super::queue::Waiting;
 use crate::batch::compose::aov_bits;
 use crate::batch::part::Part;
 use crate::batch::{BatchError, Store};
 use crate::film::TileSums;
 use crate::scene::Scene;
-use crate::wavefront::{Painted, Rect, Tiles, paint};
+use crate::wavefront::{Painted, Rect, Scratch, Tiles, paint};
 
 /// A unit in work.
 pub(super) struct Active {
     pub(super) scene: Scene,
-    unit: u64,
+    pub(super) of: Waiting,
     samples: std::ops::Range<u32>,
     /// Tiles that were not done when it was opened: number and place.
     tiles: Vec<(usize, Rect)>,
@@ -32,23 +33,23 @@ struct Sums {
 
 impl Work<'_> {
     /// A unit with its scene, and with what its checkpoint holds.
-    pub(super) fn open(&self, unit: u64) -> Result<Active, BatchError> {
-        let unit = self.plan.unit(unit);
+    pub(super) fn open(&self, of: Waiting) -> Result<Active, BatchError> {
+        let unit = self.plan.unit(of.unit);
         let picture = &self.plan.pictures[unit.picture];
-        let scene = self.scenes.scene(&picture.sets)?;
+        let scene = self.scenes.scene(&picture.sets, self.queue.bytes())?;
         if (scene.settings.size, scene.settings.spp) != (picture.size, picture.spp) {
             return Err(BatchError::Job("the plan's size or samples are not those of the scene".into()));
         }
-        let (number, samples, cost) = (unit.number, unit.samples.clone(), unit.cost());
+        let (samples, cost) = (unit.samples.clone(), unit.cost());
         let part = self.store.resumed(Part::new(unit, scene.settings.aovs))?;
         let missing = part.missing();
         let tiles: Vec<(usize, Rect)> = missing.into_iter().map(|tile| (tile, part.tiles[tile])).collect();
         let to_do: u64 = tiles.iter().map(|(_, rect)| u64::from(rect[2]) * u64::from(rect[3])).sum();
         self.advance(cost - to_do * samples.len() as u64, 0);
-        tracing::info!(unit = number, picture = picture.name, tiles = tiles.len(), "unit opened");
+        tracing::info!(unit = of.unit, picture = picture.name, tiles = tiles.len(), "unit opened");
         Ok(Active {
             scene,
-            unit: number,
+            of,
             samples,
             taken: AtomicUsize::new(0),
             left: AtomicUsize::new(tiles.len()),
@@ -59,20 +60,15 @@ impl Work<'_> {
 }
 
 impl Active {
-    /// Its number.
-    pub(super) fn unit(&self) -> u64 {
-        self.unit
-    }
-
     /// Tiles that nobody has taken.
     pub(super) fn tiles_left(&self) -> usize {
         self.tiles.len().saturating_sub(self.taken.load(Relaxed))
     }
 
     /// Paints tiles until none is left to take; true for the one thread after which the unit is done.
-    pub(super) fn paint(&self, work: &Work) -> bool {
+    pub(super) fn paint(&self, work: &Work, scratch: &mut Scratch) -> bool {
         let painter = Painter { active: self, work, done: AtomicUsize::new(0) };
-        paint(&self.scene, self.samples.clone(), &painter);
+        paint(&self.scene, self.samples.clone(), &painter, scratch);
         let done = painter.done.into_inner();
         // A unit whose checkpoint has every tile is done without painting any.
         self.left.fetch_sub(done, std::sync::atomic::Ordering::AcqRel) == done
@@ -92,7 +88,7 @@ impl Active {
         if sums.part.is_untouched() {
             return Ok(());
         }
-        tracing::info!(unit = self.unit, "checkpoint");
+        tracing::info!(unit = self.of.unit, "checkpoint");
         store.checkpoint(&sums.part)
     }
 }
@@ -123,12 +119,13 @@ impl Tiles for Painter<'_> {
         let mut sums = self.active.sums.lock().expect("no thread panics while it stores a tile");
         let tile = sums.part.tiles.iter().position(|rect| *rect == painted.tile).expect("a tile of the unit");
         sums.part.sums[tile] = Some(TileSums { nodes, aovs });
+        sums.part.nan_samples += painted.counts.nan_samples;
         self.done.fetch_add(1, Relaxed);
         if sums.kept.elapsed() >= self.work.options.checkpoint_every {
             sums.kept = Instant::now();
-            tracing::info!(unit = self.active.unit, "checkpoint");
+            tracing::info!(unit = self.active.of.unit, "checkpoint");
             if let Err(error) = self.work.store.checkpoint(&sums.part) {
-                tracing::warn!(unit = self.active.unit, error = error.told(), "checkpoint failed");
+                tracing::warn!(unit = self.active.of.unit, error = error.told(), "checkpoint failed");
             }
         }
         drop(sums);

@@ -11,9 +11,17 @@ const MANY_TILES: usize = 64;
 /// What a thread is to do next.
 pub(super) enum Task {
     /// Open this unit.
-    Open(u64),
+    Open(Waiting),
     /// Paint tiles of this one.
     Join(Arc<Active>),
+}
+
+/// A unit that waits.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Waiting {
+    pub(super) unit: u64,
+    /// Memory that it takes from being opened until its files are written.
+    pub(super) size_bytes: u64,
 }
 
 /// Units that wait, and units that are open.
@@ -23,15 +31,18 @@ pub(super) struct Queue {
 }
 
 struct State {
-    waiting: VecDeque<u64>,
+    waiting: VecDeque<Waiting>,
     open: Vec<Arc<Active>>,
+    /// Memory of all units in work, and the most it may be while there is more than one.
+    bytes: u64,
+    max_bytes: u64,
     /// Units that threads are opening: they may have tiles for others.
     opening: usize,
 }
 
 impl Queue {
-    pub(super) fn new(units: Vec<u64>) -> Self {
-        let state = State { waiting: units.into(), open: Vec::new(), opening: 0 };
+    pub(super) fn new(units: Vec<Waiting>, max_bytes: u64) -> Self {
+        let state = State { waiting: units.into(), open: Vec::new(), bytes: 0, max_bytes, opening: 0 };
         Self { state: Mutex::new(state), changed: Condvar::new() }
     }
 
@@ -44,12 +55,14 @@ impl Queue {
         let mut state = self.state();
         loop {
             if stopped() {
+                // Others may wait for what will not come.
+                self.changed.notify_all();
                 return None;
             }
             if let Some(task) = state.task() {
                 return Some(task);
             }
-            if state.opening == 0 {
+            if state.opening == 0 && state.waiting.is_empty() {
                 return None;
             }
             state = self.changed.wait(state).expect("no thread panics while it looks for work");
@@ -72,6 +85,17 @@ impl Queue {
         self.changed.notify_all();
     }
 
+    /// A unit in work needs its memory no more.
+    pub(super) fn release(&self, size_bytes: u64) {
+        self.state().bytes -= size_bytes;
+        self.changed.notify_all();
+    }
+
+    /// Memory of all units in work.
+    pub(super) fn bytes(&self) -> u64 {
+        self.state().bytes
+    }
+
     /// All tiles of a unit are done.
     pub(super) fn close(&self, active: &Arc<Active>) {
         self.state().open.retain(|open| !Arc::ptr_eq(open, active));
@@ -88,11 +112,69 @@ impl State {
         if let Some(large) = self.open.iter().find(|active| active.tiles_left() > MANY_TILES) {
             return Some(Task::Join(Arc::clone(large)));
         }
-        if let Some(unit) = self.waiting.pop_front() {
+        if let Some(waiting) = self.next_that_fits() {
             self.opening += 1;
-            return Some(Task::Open(unit));
+            self.bytes += waiting.size_bytes;
+            return Some(Task::Open(waiting));
         }
         let some = self.open.iter().find(|active| active.tiles_left() > 0);
         some.map(|active| Task::Join(Arc::clone(active)))
+    }
+
+    /// The next unit, if there is memory for it or nothing else is in work.
+    fn next_that_fits(&mut self) -> Option<Waiting> {
+        let next = self.waiting.front()?;
+        let fits = self.bytes == 0 || self.bytes.saturating_add(next.size_bytes) <= self.max_bytes;
+        if fits { self.waiting.pop_front() } else { None }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn queue(max_bytes: u64) -> Queue {
+        Queue::new((0..3).map(|unit| Waiting { unit, size_bytes: 10 }).collect(), max_bytes)
+    }
+
+    fn opened(queue: &Queue) -> Option<u64> {
+        let task = queue.state().task();
+        task.map(|task| match task {
+            Task::Open(waiting) => waiting.unit,
+            Task::Join(_) => panic!("nothing is open"),
+        })
+    }
+
+    #[test]
+    fn units_wait_until_there_is_memory() {
+        let queue = queue(20);
+        assert_eq!([opened(&queue), opened(&queue), opened(&queue)], [Some(0), Some(1), None]);
+        queue.release(10);
+        assert_eq!((opened(&queue), queue.bytes()), (Some(2), 20));
+    }
+
+    #[test]
+    fn one_unit_is_worked_at_however_large_it_is() {
+        let queue = queue(0);
+        assert_eq!([opened(&queue), opened(&queue)], [Some(0), None]);
+        queue.release(10);
+        assert_eq!(opened(&queue), Some(1));
+    }
+
+    #[test]
+    fn nobody_waits_for_ever_when_the_work_is_stopped() {
+        let queue = queue(0);
+        assert_eq!(opened(&queue), Some(0));
+        let stopped = std::sync::atomic::AtomicBool::new(false);
+        let is_stopped = || stopped.load(std::sync::atomic::Ordering::Relaxed);
+        std::thread::scope(|scope| {
+            let waits = scope.spawn(|| queue.next(is_stopped).is_none());
+            stopped.store(true, std::sync::atomic::Ordering::Relaxed);
+            while !waits.is_finished() {
+                assert!(queue.next(is_stopped).is_none());
+                std::thread::yield_now();
+            }
+            assert!(waits.join().unwrap());
+        });
     }
 }

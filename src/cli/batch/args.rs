@@ -78,7 +78,7 @@ pub struct WorkArgs {
     /// Keep what is done of a picture this often, in seconds
     #[arg(long, value_name = "SECONDS", default_value = "60", value_parser = seconds)]
     pub checkpoint_every: Duration,
-    /// Most memory for scenes kept for further pictures, such as 500M or 4G
+    /// Most memory for pictures in work and scenes kept for further ones, such as 500M or 4G; one picture is always worked at
     #[arg(long, value_name = "SIZE", default_value = "2G", value_parser = size)]
     pub max_memory: u64,
     /// How progress is shown on standard error

@@ -36,7 +36,8 @@ pub fn plan(args: &PlanArgs) -> Result<(), CliError> {
 pub fn run_plan(args: &RunArgs) -> Result<(), CliError> {
     with_reporter(&args.work, |reporter, interrupt| {
         let plan = Plan::read(&args.plan)?;
-        let environment = |name: &str| std::env::var(name).ok();
+        let environment =
+            |name: &str| std::env::var_os(name).map(|value| value.to_string_lossy().into_owned());
         let shard =
             args.shard.as_ref().map(|text| Shard::parse(text, plan.shards, environment)).transpose()?;
         Batch { plan: &plan, folder: folder_of(&args.plan), output: &args.output, shard, work: &args.work }
@@ -94,6 +95,7 @@ pub fn status(args: &StatusArgs) -> Result<(), CliError> {
             "units_done": status.done,
             "pictures": plan.pictures.len(),
             "pictures_done": pictures,
+            "nan_samples": status.nan_samples,
             "shards": plan.shards,
             "shards_missing": status.shards_missing,
         })

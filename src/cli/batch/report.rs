@@ -26,6 +26,7 @@ impl Ending for Summary {
             "name": self.name,
             "units": report.done,
             "units_done_before": report.done_before,
+            "nan_samples": report.nan_samples,
             "rays": { "total": report.rays },
             "mrays_per_s": human::millions_a_second(report.rays, report.time),
             "time_s": report.time.as_secs_f64(),
@@ -46,6 +47,8 @@ impl fmt::Display for Summary {
         writeln!(f, "rays     {rays}; {rate}; {}", human::time(report.time))?;
         let memory = memory::peak_bytes().map_or("unknown".into(), human::bytes);
         writeln!(f, "machine  {}, {} threads, peak memory {memory}", simd::BUILT_FOR.name(), self.threads)?;
+        // Always said, so that a zero is known and not only missing.
+        writeln!(f, "checks   {} samples were not a number", human::count(report.nan_samples))?;
         write!(f, "pictures in {}", self.output)
     }
 }
