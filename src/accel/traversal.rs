@@ -25,19 +25,19 @@ const SMALL_TREE: usize = 8;
 /// Most packets that go alone before one is tried together again.
 const LONGEST_PAUSE: u32 = 64;
 
-/// Whether packets pay, as those before tell: where they do not, the more seldom they are tried.
+/// Whether going together pays, as those before tell: where it does not, the more seldom it is tried.
 #[derive(Clone, Copy, Debug, Default)]
-struct Pace {
-    /// Packets to come that go alone.
+pub(super) struct Pace {
+    /// Packets or bundles to come that are not tried.
     rest: u32,
-    /// Packets that went alone after the last that did not pay.
+    /// How many were not tried after the last that did not pay.
     pause: u32,
 }
 
 impl Pace {
-    /// True if the next packet is to go together.
+    /// True if the next is to be tried.
     #[inline(always)]
-    fn tries(&mut self) -> bool {
+    pub(super) fn tries(&mut self) -> bool {
         let tries = self.rest == 0;
         self.rest -= u32::from(!tries);
         tries
@@ -49,9 +49,9 @@ impl Pace {
         self.rest -= if rests { packets } else { 0 };
         rests
     }
-    /// Takes note of what the last packet saved by going together.
+    /// Takes note of what the last one saved by going together.
     #[inline(always)]
-    fn learn(&mut self, saved: i32) {
+    pub(super) fn learn(&mut self, saved: i32) {
         self.pause = if saved >= 0 { 0 } else { (2 * self.pause + 1).min(LONGEST_PAUSE) };
         self.rest = self.pause;
     }

@@ -18,8 +18,10 @@ use crate::accel::{packet, single};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{WIDTH, three};
 
-/// Primitives met by the pyramid after which a bundle is given up: two a ray.
-const BUDGET: usize = 2 * WIDTH * WIDTH;
+/// Primitives met by the pyramid up to which a bundle pays: two a ray.
+const PAYS: usize = 2 * WIDTH * WIDTH;
+/// Those after which it is given up: by then it costs less to go on than to begin otherwise, unless there are many more.
+const BUDGET: usize = 3 * WIDTH * WIDTH;
 
 /// Packets prepared when first tested: many meet nothing.
 pub(super) type Prepared<T> = [Option<TestRays<T>>; WIDTH];
@@ -56,6 +58,11 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         frustum.update_reach();
         prepared.iter_mut().for_each(|prepared| *prepared = None);
         Some(Self { frustum, rays, prepared, queries, met: 0 })
+    }
+
+    /// True if its rays had better go together, and its neighbours' rays too.
+    pub(super) fn has_paid(&self) -> bool {
+        self.met <= PAYS
     }
 
     /// Puts everything below `root` to the queries that their rays may hit; false if given up.

@@ -13,7 +13,7 @@ mod frustum;
 
 use super::Accel;
 use super::query::{AnyHit, Closest, Query};
-use super::traversal::{Hint, Traversal, ask_planes};
+use super::traversal::{Hint, Pace, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Vec3, WIDTH};
 use bundle::{Bundle, Prepared, Stacks};
@@ -21,9 +21,6 @@ use flight::{Alone, Flight};
 
 pub use columns::{Bound, HitColumns, RayColumns};
 pub use frustum::Apex;
-
-/// Bundles that are not tried after one that did not pay: their neighbours would not either.
-const REST: usize = 15;
 
 /// Packets in a bundle.
 const BUNDLE: usize = WIDTH;
@@ -185,8 +182,8 @@ struct Bundles<'a, T: Tier> {
     traversal: Traversal<'a>,
     rays: Box<[RayLanes<T::Wide>; BUNDLE]>,
     prepared: Box<Prepared<T>>,
-    /// Bundles to come that are not tried.
-    rest: usize,
+    /// Where a bundle does not pay, its neighbours hardly would.
+    pace: Pace,
 }
 
 impl<'a, T: Tier> Bundles<'a, T> {
@@ -196,7 +193,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             traversal: Traversal::new(accel),
             rays: Box::new([no_rays(); BUNDLE]),
             prepared: Box::new([const { None }; BUNDLE]),
-            rest: 0,
+            pace: Pace::default(),
         }
     }
 
@@ -212,7 +209,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
     ) {
         let end = rays.len.min(first + BUNDLE * WIDTH);
         let packets = (first..end).step_by(WIDTH).enumerate();
-        let tried = apex.filter(|_| self.is_rested());
+        let tried = apex.filter(|_| self.pace.tries());
         if tried.is_none() && !self.traversal.may_go_together(hint, end - first) {
             packets.for_each(|(_, at)| alone.push(at));
             return;
@@ -231,13 +228,6 @@ impl<'a, T: Tier> Bundles<'a, T> {
                 alone.push(at);
             }
         }
-    }
-
-    /// True if a bundle is worth a try.
-    fn is_rested(&mut self) -> bool {
-        let is_rested = self.rest == 0;
-        self.rest -= usize::from(!is_rested);
-        is_rested
     }
 
     /// False if the rays of a packet had better go alone.
@@ -259,7 +249,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
         let mut stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
         let done = bundle.descend(self.accel, world.node, &mut stacks);
-        self.rest = if done { 0 } else { REST };
+        self.pace.learn(if bundle.has_paid() { 0 } else { -1 });
         done
     }
 }
