@@ -24,8 +24,8 @@ pub enum Promise {
     Leaving,
     /// Paths through glass.
     Glass,
-    /// Paths through gaps that get thinner than `f32`, and at last `f64`, resolves.
-    Contact,
+    /// The same so far from the origin that `f32` resolves neither the gaps nor the curvature.
+    FarGlass,
     /// Beyond the domain: measured, not promised.
     None,
 }
@@ -68,9 +68,8 @@ impl Promise {
             (Self::Boxes, _) => Bounds { missed: zero, differing, ..NOTHING },
             (_, TierName::Fast) => NOTHING,
             (Self::None, _) => Bounds { differing, ..NOTHING },
-            (Self::Contact, TierName::Watertight) => NOTHING,
-            // Within some 1e-7 of where spheres touch the gap is thinner than roundoffs of `f64` too.
-            (Self::Contact, TierName::Exact) => Bounds { self_hits: Some(100.0), ..NOTHING },
+            (Self::FarGlass, TierName::Watertight) => NOTHING,
+            (Self::FarGlass, TierName::Exact) => Bounds { self_hits: zero, ..NOTHING },
             (Self::Leaving | Self::Glass, _) => Bounds { self_hits: zero, ..NOTHING },
             (_, TierName::Watertight) => self.watertight(),
             (_, TierName::Exact) => self.exact(),

@@ -52,7 +52,7 @@ fn mixed_scenes_keep_their_bounds() {
 
 #[test]
 fn rays_that_leave_surfaces_do_not_hit_them() {
-    hold(&["leaving", "glass-chain", "glass-touching", "glass-shells", "critical-angle"]);
+    hold(&["leaving", "glass-chain", "glass-touching", "glass-far", "glass-shells", "critical-angle"]);
 }
 
 /// A family that no test names would not be held to its bounds.

@@ -4,6 +4,7 @@ mod aim;
 mod boxes;
 mod closed;
 mod cylinders;
+mod glass;
 mod mixed;
 mod paths;
 mod spheres;
