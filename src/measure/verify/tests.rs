@@ -22,7 +22,7 @@ fn hold(names: &[&str]) {
 
 #[test]
 fn closed_meshes_do_not_leak() {
-    hold(&["closed-inside", "closed-outside", "along-edges"]);
+    hold(&["closed-inside", "closed-outside", "along-edges", "leaks"]);
 }
 
 #[test]

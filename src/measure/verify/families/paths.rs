@@ -2,7 +2,7 @@
 
 use super::{Family, Make, glass};
 use crate::accel::brute::{self, NearestHit};
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, NO_MATERIAL};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::{Exact, Fast, RayLanes, Tier, Watertight};
 use crate::math::{Lane, Real, Vec3, WIDTH};
@@ -18,42 +18,48 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "leaving",
         about: "from just computed hit points outwards, at any angle; sizes 1e-3 to 1e6, up to 1e3 sizes from the origin",
         promise: Promise::Leaving,
-        make: Make::Paths([leaving::<Fast>, leaving::<Watertight>, leaving::<Exact>]),
+        make: Make::Walks(PATHS, [leaving::<Fast>, leaving::<Watertight>, leaving::<Exact>]),
     },
     Family {
         name: "glass-chain",
         about: "through ten glass spheres in a row up to 1e3 from the origin: 20 interfaces, also of ior near 1",
         promise: Promise::Glass,
-        make: Make::Paths([glass::chain::<Fast>, glass::chain::<Watertight>, glass::chain::<Exact>]),
+        make: Make::Walks(PATHS, [glass::chain::<Fast>, glass::chain::<Watertight>, glass::chain::<Exact>]),
     },
     Family {
         name: "glass-touching",
         about: "the same where the spheres touch, so that gaps are thinner than any roundoff",
         promise: Promise::Glass,
-        make: Make::Paths([glass::contact::<Fast>, glass::contact::<Watertight>, glass::contact::<Exact>]),
+        make: Make::Walks(
+            PATHS,
+            [glass::contact::<Fast>, glass::contact::<Watertight>, glass::contact::<Exact>],
+        ),
     },
     Family {
         name: "glass-far",
         about: "the same up to 1e5 from the origin, where f32 has seven bits for what lies within a unit",
-        promise: Promise::FarGlass,
-        make: Make::Paths([glass::far::<Fast>, glass::far::<Watertight>, glass::far::<Exact>]),
+        promise: Promise::Glass,
+        make: Make::Walks(PATHS, [glass::far::<Fast>, glass::far::<Watertight>, glass::far::<Exact>]),
     },
     Family {
         name: "glass-shells",
         about: "through ten glass spheres one inside the other: 20 interfaces",
         promise: Promise::Glass,
-        make: Make::Paths([glass::shells::<Fast>, glass::shells::<Watertight>, glass::shells::<Exact>]),
+        make: Make::Walks(
+            PATHS,
+            [glass::shells::<Fast>, glass::shells::<Watertight>, glass::shells::<Exact>],
+        ),
     },
     Family {
         name: "critical-angle",
         about: "refraction at the critical angle, within some roundoffs: finite, of length one, on the right side",
         promise: Promise::Glass,
-        make: Make::Paths([critical::<Fast>, critical::<Watertight>, critical::<Exact>]),
+        make: Make::Walks(PATHS, [critical::<Fast>, critical::<Watertight>, critical::<Exact>]),
     },
 ];
 
 /// Paths of a trial.
-pub(in crate::measure::verify) const PATHS: usize = 16;
+pub(super) const PATHS: usize = 16;
 
 type Point<R> = Vec3<R>;
 
@@ -100,19 +106,11 @@ impl<R: Real> Surface<R> {
 
 fn leaving<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
     let size = dice.magnitude(-3.0, 6.0).abs();
-    let center = dice.point().map(|x| x * size * [0.0, 1.0, 1e3][dice.below(3)]);
-    let shape = match dice.below(3) {
-        0 => Shape::Triangle(triangle(dice, center, size)),
-        1 => Shape::Sphere { center: rounded(center), radius: size as f32 },
-        _ => {
-            let to = add(center, dice.heading(), size * dice.magnitude(-1.0, 1.0).abs());
-            Shape::Cylinder { from: rounded(center), to: rounded(to), radius: (0.5 * size) as f32 }
-        }
-    };
-    let trial = Trial { shapes: vec![shape], rays: Vec::new(), claim: Claim::Leaving };
-    let g = trial.geometry();
+    let away = dice.point().map(|x| x * size * [0.0, 1.0, 1e3][dice.below(3)]);
+    let (g, center) = alone(dice, size, away);
     for _ in 0..PATHS {
-        let target = add(center, dice.point(), 0.5 * size);
+        let reach = [0.5 * size, 1e-3 * size][dice.below(2)];
+        let target = add(center, dice.point(), reach);
         let first = RayLanes::from(&towards(add(center, dice.heading(), 12.0 * size), target));
         let first =
             ray::<T::Real>(vector(first.origin.widen().get(0)), vector(first.direction.widen().get(0)));
@@ -128,9 +126,47 @@ fn leaving<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
         tally.rays += 1;
         if let Some(again) = brute::closest::<T>(&g, &next) {
             tally.hits += 1;
-            tally.add(Fault::SelfHit, || format!("{next:?} leaves {shape:?} and hits it at {:?}", again.t));
+            tally.add(Fault::SelfHit, || format!("{next:?} leaves {g:?} and hits it at {:?}", again.t));
         }
     }
+}
+
+/// One primitive of a size, and a point to aim at: its middle at some place, or, now and then, a point of its surface at the
+/// origin, where coordinates are small and what they are computed from is not.
+fn alone(dice: &mut Dice, size: f64, away: [f64; 3]) -> (Geometry, [f64; 3]) {
+    let through_origin = dice.below(3) == 0;
+    let aside = dice.heading();
+    let center = |reach: f64| if through_origin { aside.map(|x| x * reach) } else { away };
+    let mut plane = Geometry::default();
+    let shape = match dice.below(4) {
+        0 if through_origin => Shape::Triangle(triangle_through_origin(dice, size)),
+        0 => Shape::Triangle(triangle(dice, away, size)),
+        1 => Shape::Sphere { center: rounded(center(size)), radius: size as f32 },
+        2 => {
+            let axis = if through_origin { across(dice, aside) } else { dice.heading() };
+            let from = center(0.5 * size);
+            let reach = size * dice.magnitude(-1.0, 1.0).abs();
+            let from = if through_origin { add(from, axis, -0.5 * reach) } else { from };
+            Shape::Cylinder {
+                from: rounded(from),
+                to: rounded(add(from, axis, reach)),
+                radius: (0.5 * size) as f32,
+            }
+        }
+        _ => {
+            let normal = if through_origin { across(dice, aside) } else { dice.heading() };
+            plane.planes.push(rounded(center(size)), rounded(normal), NO_MATERIAL);
+            return (plane, if through_origin { [0.0; 3] } else { away });
+        }
+    };
+    let trial = Trial { shapes: vec![shape], rays: Vec::new(), claim: Claim::Leaving };
+    (trial.geometry(), if through_origin { [0.0; 3] } else { away })
+}
+
+/// Two corners at random, and the third such that the origin is about in the middle.
+fn triangle_through_origin(dice: &mut Dice, size: f64) -> [[f32; 3]; 3] {
+    let [a, b, _] = triangle(dice, [0.0; 3], size);
+    [a, b, std::array::from_fn(|k| -(a[k] + b[k]))]
 }
 
 fn critical<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
