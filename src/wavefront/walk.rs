@@ -127,3 +127,47 @@ fn walker_of<R: Real>(queue: &PathQueue<R>, row: usize, number: usize) -> Walker
     let (origin, direction) = (of(&queue.origin), of(&queue.direction));
     Walker { number, origin, direction, medium: queue.medium[row] }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::intersect::{Exact, Watertight};
+
+    /// Which spheres a ray along x meets, and from inside or not.
+    fn met<T: Tier>(second_center: f64) -> Vec<(usize, bool)> {
+        let text = format!(
+            "[camera]\nposition = [0, 0, -9]\nlook_at = [0, 0, 0]\n[render]\nmin_throughput = 0\n\
+             [[material]]\nname = 'glass'\nkind = 'dielectric'\n\
+             [[sphere]]\ncenter = [{second_center:?}, 0, 0]\nradius = 1\nmaterial = 'glass'\n\
+             [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\nmaterial = 'glass'\n"
+        );
+        let scene = Scene::compile(&crate::describe::parse(&text, "test").unwrap()).unwrap();
+        let path =
+            [[-5.0, 0.0, 0.0], [1.0, 0.0, 0.0]].map(|v: [f64; 3]| Vec3::splat(v.map(T::Real::from_f64)));
+        let mut steps = Vec::new();
+        walk::<T>(&scene, &[path], 8, |_, step| {
+            if let Step::Sphere { row, from_inside, .. } = step {
+                steps.push((row, from_inside));
+            }
+            true
+        });
+        steps
+    }
+
+    const ONE_AFTER_THE_OTHER: [(usize, bool); 4] = [(1, false), (1, true), (0, false), (0, true)];
+
+    #[test]
+    fn spheres_that_touch_are_met_one_after_the_other() {
+        assert_eq!(met::<Watertight>(2.0), ONE_AFTER_THE_OTHER);
+        assert_eq!(met::<Exact>(2.0), ONE_AFTER_THE_OTHER);
+    }
+
+    /// What rounding alone may have put into each other; in `exact` that is an overlap like any other.
+    #[test]
+    fn spheres_that_overlap_by_a_roundoff_are_met_one_after_the_other() {
+        let center = f64::from(2.0f32.next_down());
+        assert_eq!(met::<Watertight>(center), ONE_AFTER_THE_OTHER);
+        assert_eq!(met::<Exact>(center), [(1, false), (0, false), (1, true), (0, true)]);
+        assert_eq!(met::<Watertight>(1.5), [(1, false), (0, false), (1, true), (0, true)]);
+    }
+}
