@@ -61,9 +61,14 @@ fn every_choice_that_the_scene_has_is_there_and_no_other() {
     let (report, _) = measured();
     let rows = report["rows"].as_array().unwrap();
     let has = |change: &str| rows.iter().any(|row| row["change"] == change);
-    for (change, expected) in
-        [("sampler", true), ("depth", true), ("cutoff", true), ("size", true), ("bounce", false)]
-    {
+    for (change, expected) in [
+        ("sampler", true),
+        ("depth", true),
+        ("cutoff", true),
+        ("size", true),
+        ("shadows", true),
+        ("bounce", false),
+    ] {
         assert_eq!(has(change), expected, "{change}");
     }
     for row in rows.iter().filter(|row| row["change"] == "depth" && row["setting"]["max_depth"] == 0) {

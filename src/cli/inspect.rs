@@ -6,7 +6,7 @@ use super::args::InspectArgs;
 use super::error::CliError;
 use super::{human, pipeline, stdio};
 use crate::intersect::PrimKind;
-use crate::scene::{Requirements, Scatter, Scene};
+use crate::scene::{Scatter, Scene};
 
 /// Prints what the scene holds.
 pub fn run(args: &InspectArgs) -> Result<(), CliError> {
@@ -18,7 +18,7 @@ fn report(name: &str, scene: &Scene) -> String {
     let mut text = format!("{name}\n");
     section(&mut text, "holds", &holds(scene));
     section(&mut text, "memory by column", &memory(scene));
-    let (runs, rests): (Vec<_>, Vec<_>) = stages(&scene.requirements).into_iter().partition(|s| s.1);
+    let (runs, rests): (Vec<_>, Vec<_>) = stages(scene).into_iter().partition(|s| s.1);
     let names =
         |stages: Vec<(String, bool)>| stages.into_iter().map(|s| (s.0, String::new())).collect::<Vec<_>>();
     section(&mut text, "runs", &names(runs));
@@ -93,7 +93,8 @@ fn memory(scene: &Scene) -> Vec<(String, String)> {
 }
 
 /// Every stage and kernel, and whether the scene needs it.
-fn stages(r: &Requirements) -> Vec<(String, bool)> {
+fn stages(scene: &Scene) -> Vec<(String, bool)> {
+    let r = &scene.requirements;
     let mut stages = vec![("generate: camera rays".to_owned(), true)];
     let mut stage = |name: &str, needed: bool| stages.push((name.to_owned(), needed));
     stage("generate: points on the lens", r.lens);
@@ -105,7 +106,7 @@ fn stages(r: &Requirements) -> Vec<(String, bool)> {
     stage("shade: interpolated normals", r.shading_normals);
     stage("shade: textures", r.textures);
     stage("shade: ambient light and emission", r.glow);
-    stage("connect: shadow rays", r.lights);
+    stage("connect: shadow rays", r.lights && scene.settings.shadows);
     stage("connect: highlights", r.highlights);
     stage("connect: fractional shininess", r.fractional_shininess);
     for kind in [Scatter::Diffuse, Scatter::Metal, Scatter::Dielectric] {

@@ -14,6 +14,9 @@ pub struct Render {
     pub spp: u32,
     /// How many times a camera ray may be reflected, refracted or scattered. Default 6; 0 shows direct light only.
     pub max_depth: u32,
+    /// Whether what stands before a light takes it away. Default true. Without, no shadow rays are traced: every surface that
+    /// faces a light gets it, through walls too; quicker, for previews and flat lighting. Mirrors, glass and bounces stay.
+    pub shadows: bool,
     /// Number that chooses the random sequences. Default 0.
     pub seed: u64,
     /// Precision: `fast`, `watertight` (default) or `exact`.
@@ -126,6 +129,7 @@ impl Default for Render {
             size: [640, 480],
             spp: 16,
             max_depth: 6,
+            shadows: true,
             seed: 0,
             tier: Tier::default(),
             build_quality: BuildQuality::default(),

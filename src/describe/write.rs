@@ -27,6 +27,7 @@ const KEY_ORDER: &[&str] = &[
     "size",
     "spp",
     "max_depth",
+    "shadows",
     "color",
     "bottom",
     "top",

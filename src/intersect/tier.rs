@@ -52,7 +52,7 @@ pub trait Curved: Copy + Send + Sync + 'static {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Direct;
 
-/// Sorts out what certainly misses in the number type of the lanes, solves the rest in `f64`.
+/// Sorts out what certainly misses without a quotient or a root, in the number type of the lanes, and solves the rest in `f64`.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Filtered;
 
@@ -97,9 +97,9 @@ pub trait Tier: sealed::Sealed + Copy + Default + Send + Sync + 'static {
 
     /// The nearest `f32` lanes: boxes are culled in `f32` in every tier.
     fn nearest_f32(x: Self::Wide) -> f32x8;
-    /// `f32` lanes not below.
+    /// `f32` lanes not below; negative numbers have to be of the range of `f32`.
     fn above_f32(x: Self::Wide) -> f32x8;
-    /// `f32` lanes not above.
+    /// `f32` lanes not above; positive numbers have to be of the range of `f32`.
     fn below_f32(x: Self::Wide) -> f32x8;
 }
 
@@ -142,22 +142,31 @@ macro_rules! tier {
 }
 tier!(Fast, f32, f32x8, MollerTrumbore, Direct, as_is, as_is, as_is);
 tier!(Watertight, f32, f32x8, Woop, Filtered, as_is, as_is, as_is);
-tier!(Exact, f64, f64x8, ExactVolumes, Direct, f32x8::narrow, above, below);
+tier!(Exact, f64, f64x8, ExactVolumes, Filtered, f32x8::narrow, above, below);
 
 #[inline(always)]
 fn as_is(x: f32x8) -> f32x8 {
     x
 }
 
-/// The next number up from the nearest is never below.
+/// The nearest number, and two of the roundoffs it may be off by: never below.
+#[inline(always)]
 fn above(x: f64x8) -> f32x8 {
-    let nearest = f32x8::narrow(x).to_array();
-    f32x8::new(nearest.map(f32::next_up))
+    let nearest = f32x8::narrow(x);
+    nearest + beyond(nearest)
 }
 
+#[inline(always)]
 fn below(x: f64x8) -> f32x8 {
-    let nearest = f32x8::narrow(x).to_array();
-    f32x8::new(nearest.map(f32::next_down))
+    let nearest = f32x8::narrow(x);
+    nearest - beyond(nearest)
+}
+
+/// More than rounding to `f32` takes away. Finite, so that infinities stay as they are.
+#[inline(always)]
+fn beyond(x: f32x8) -> f32x8 {
+    let size = Lane::abs(x) * f32x8::splat(f32::EPSILON) + f32x8::splat(f32::MIN_POSITIVE);
+    Lane::min(size, f32x8::splat(f32::MAX))
 }
 
 /// The name of a tier, as users choose it.
@@ -179,6 +188,40 @@ impl TierName {
             Self::Fast => "fast",
             Self::Watertight => "watertight",
             Self::Exact => "exact",
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn limits(x: f64) -> [f64; 2] {
+        let [low, high] = [Exact::below_f32, Exact::above_f32].map(|round| round(f64x8::splat(x)).get(0));
+        [low, high].map(f64::from)
+    }
+
+    #[test]
+    fn infinities_stay_and_the_rest_of_f64_lies_between() {
+        for x in [f64::INFINITY, f64::NEG_INFINITY] {
+            assert_eq!(limits(x), [x, x]);
+        }
+        assert_eq!(limits(1e300)[1], f64::INFINITY);
+        for x in [0.0, 1e-320, -1e-320, 1e-45, 1e38, -1e38, f64::MIN_POSITIVE] {
+            let [low, high] = limits(x);
+            assert!(low < x && x < high, "{low} < {x} < {high}");
+        }
+    }
+
+    proptest! {
+        #[test]
+        fn numbers_lie_between_close_ones_of_f32(x in -1e30f64..1e30, scale in -36i32..8) {
+            let x = x * 10f64.powi(scale);
+            let [low, high] = limits(x);
+            prop_assert!(low <= x && x <= high, "{} <= {} <= {}", low, x, high);
+            prop_assert!(high - low <= 4.0 * (f64::from(f32::EPSILON) * x.abs() + f64::from(f32::MIN_POSITIVE)));
         }
     }
 }

@@ -46,15 +46,26 @@ fn multiply([a, b]: Pair, [c, d]: Pair) -> Pair {
 
 /// The determinant of three rows, within a roundoff, and 0 only if it is.
 pub(crate) fn determinant(a: &[Pair; 3], b: &[Pair; 3], c: &[Pair; 3]) -> f64 {
+    let ([sum, rest], error) = pair_determinant(a, b, c);
+    // Four bits more than a roundoff, so that rounding once more stays within one.
+    let certain = sum.abs() > error * (16.0 / f64::EPSILON);
+    if certain { sum + rest } else { Expansion::determinant(a, b, c).value() }
+}
+
+/// 1 or -1 as the determinant of three rows certainly has that sign, 0 where sums of two numbers cannot tell.
+pub(crate) fn determinant_sign(a: &[Pair; 3], b: &[Pair; 3], c: &[Pair; 3]) -> f64 {
+    let ([sum, _], error) = pair_determinant(a, b, c);
+    if sum.abs() > error { sum.signum() } else { 0.0 }
+}
+
+/// The determinant of three rows, and a bound on its error.
+fn pair_determinant(a: &[Pair; 3], b: &[Pair; 3], c: &[Pair; 3]) -> (Pair, f64) {
     // Six products of three, each within 2^-100 of itself, and their sums.
     const ERROR: f64 = 1.0 / (1u128 << 96) as f64;
     let minor = |i: usize, j: usize| add(multiply(b[i], c[j]), multiply(b[j], c[i].map(|x| -x)));
     let [x, y, z] = [(0, 1, 2), (1, 2, 0), (2, 0, 1)].map(|(i, j, k)| multiply(a[i], minor(j, k)));
-    let [sum, rest] = add(add(x, y), z);
     let size = |row: &[Pair; 3]| row.iter().map(|x| x[0].abs()).sum::<f64>();
-    // Four bits more than a roundoff, so that rounding once more stays within one.
-    let certain = sum.abs() > size(a) * size(b) * size(c) * (ERROR * 16.0 / f64::EPSILON);
-    if certain { sum + rest } else { Expansion::determinant(a, b, c).value() }
+    (add(add(x, y), z), size(a) * size(b) * size(c) * ERROR)
 }
 
 impl Expansion {
@@ -145,6 +156,8 @@ mod tests {
             prop_assert!((got.value() - nearest).abs() <= nearest.abs() * f64::EPSILON);
             let quick = determinant(&row(0), &row(3), &row(6));
             prop_assert!((quick - nearest).abs() <= nearest.abs() * f64::EPSILON, "{quick} for {nearest}");
+            let told = determinant_sign(&row(0), &row(3), &row(6));
+            prop_assert!(told == 0.0 || sign(told) == sign(nearest));
         }
 
         /// The third row is close to a sum of the others: most of the products cancels.

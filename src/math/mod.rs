@@ -12,7 +12,7 @@ mod transform;
 mod vec3;
 
 pub use aabb::Aabb;
-pub(crate) use expansion::{Pair, determinant, two_sum};
+pub(crate) use expansion::{Pair, determinant, determinant_sign, two_sum};
 pub use lane::{BitLane, Lane, Mask, Real};
 pub use transform::{Transform, TransformError};
 pub use vec3::{Vec3, fused_cross, fused_dot};

@@ -61,6 +61,8 @@ pub struct RenderSettings {
     pub spp: u32,
     /// Most bounces of a path: 0 shows what the camera sees directly.
     pub max_depth: u32,
+    /// Shadow rays: without, all light reaches what faces it.
+    pub shadows: bool,
     /// Chooses other random numbers.
     pub seed: u64,
     /// Precision.

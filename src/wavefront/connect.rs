@@ -44,8 +44,10 @@ pub(super) fn connect<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T
             true => shade::<T, true>(worker, surfaces, light, &mut queue),
             false => shade::<T, false>(worker, surfaces, light, &mut queue),
         }
-        worker.rays.shadow += queue.len as u64;
-        trace(worker, light, &mut queue);
+        if scene.settings.shadows {
+            trace(worker, light, &mut queue);
+        }
+        add_light(worker, &queue);
     }
 }
 
@@ -102,8 +104,9 @@ fn reflected<T: Tier, const FRACTION: bool>(
     diffuse * cos + gather3::<T::Wide>(&scene.materials.specular, materials) * specular
 }
 
-/// Traces shadow rays up to the light and adds the light of those that nothing stops.
+/// Traces shadow rays up to the light.
 fn trace<T: Tier>(worker: &mut Worker<T>, light: &Light, queue: &mut ShadowQueue<T::Real>) {
+    worker.rays.shadow += queue.len as u64;
     let rays = RayColumns {
         len: queue.len,
         origin: queue.origin.rows_from(0),
@@ -112,6 +115,10 @@ fn trace<T: Tier>(worker: &mut Worker<T>, light: &Light, queue: &mut ShadowQueue
         t_max: Bound::All(T::Real::constant(light.t_max())),
     };
     worker.stream.any(&rays, light.position().map(Apex::Target), Hint::Auto, queue.occluded);
+}
+
+/// Adds the light of those that nothing stops.
+fn add_light<T: Tier>(worker: &mut Worker<T>, queue: &ShadowQueue<T::Real>) {
     for at in (0..queue.len).step_by(WIDTH) {
         let count = (queue.len - at).min(WIDTH);
         let lanes = !u32::from(queue.occluded[at / WIDTH]) & ((1u64 << count) - 1) as u32;

@@ -1,38 +1,75 @@
-//! Which dielectrics a ray is inside of: four numbers of 16 bits in a word, the innermost lowest; 0 is none.
+//! Which dielectrics a ray is inside of: four bodies of 32 bits in a word, the innermost lowest; 0 is none.
 //!
-//! A number is a dielectric's material row plus one. Four nested bodies are tracked; entering a fifth forgets the
-//! outermost.
+//! A sphere of the scene itself is a body by its primitive id. What takes several primitives to close (meshes, planes, quads),
+//! and what stands behind an instance, is one body by its material: row plus one. Four nested bodies are tracked; entering a
+//! fifth forgets the outermost.
+
+use crate::geometry::Geometry;
+use crate::intersect::{PrimId, PrimKind};
+
+/// Bodies that a ray is inside of.
+pub(super) type Media = u128;
 
 /// Outside of everything.
-pub(super) const OUTSIDE: u64 = 0;
+pub(super) const OUTSIDE: Media = 0;
+
+/// No body.
+pub(super) const NO_BODY: u32 = 0;
+
+const BODIES: usize = 4;
+
+/// The body of a dielectric surface.
+pub(super) fn body_of(kind: PrimKind, row: u32, instance: u32, material: u32) -> u32 {
+    match kind {
+        PrimKind::Sphere if instance == 0 => PrimId::new(kind, row as usize).0,
+        _ => material + 1,
+    }
+}
+
+/// The row of a body that is a sphere by itself.
+pub(super) fn sphere_of(body: u32) -> Option<u32> {
+    let first = PrimId::new(PrimKind::Sphere, 0).0;
+    body.checked_sub(first)
+}
+
+/// The material row of a body.
+pub(super) fn material_of_body(geometry: &Geometry, body: u32) -> u32 {
+    match sphere_of(body) {
+        Some(row) => geometry.material(PrimKind::Sphere, row as usize),
+        None => body - 1,
+    }
+}
+
+fn body_at(state: Media, level: usize) -> u32 {
+    (state >> (32 * level)) as u32
+}
 
 /// The state inside `body`.
-pub(super) fn enter(state: u64, body: u16) -> u64 {
-    state << 16 | u64::from(body)
+pub(super) fn enter(state: Media, body: u32) -> Media {
+    state << 32 | Media::from(body)
 }
 
 /// The state after leaving `body`: its innermost mention is taken out; a body never entered changes nothing.
-pub(super) fn leave(state: u64, body: u16) -> u64 {
-    for level in 0..4 {
-        let shift = 16 * level;
-        if (state >> shift) as u16 == body {
-            let below = state & ((1u64 << shift) - 1);
-            let above = if shift == 48 { 0 } else { state >> (shift + 16) << shift };
-            return above | below;
-        }
-    }
-    state
+pub(super) fn leave(state: Media, body: u32) -> Media {
+    let Some(level) = (0..BODIES).find(|&level| body_at(state, level) == body) else { return state };
+    let below = state & ((1 << (32 * level)) - 1);
+    let above = state >> (32 * level) >> 32;
+    above << (32 * level) | below
+}
+
+/// Whether the ray is known to be inside `body`.
+pub(super) fn is_inside(state: Media, body: u32) -> bool {
+    (0..BODIES).any(|level| body_at(state, level) == body)
 }
 
 /// The state of a ray found inside `body`: as if it had entered, where no entry was seen (a camera inside a body).
-pub(super) fn found_inside(state: u64, body: u16) -> u64 {
-    let known = (0..4).any(|level| (state >> (16 * level)) as u16 == body);
-    if known { state } else { enter(state, body) }
+pub(super) fn found_inside(state: Media, body: u32) -> Media {
+    if body == NO_BODY || is_inside(state, body) { state } else { enter(state, body) }
 }
 
 /// The body whose inside counts: the innermost.
-pub(super) fn innermost(state: u64) -> u16 {
-    state as u16
+pub(super) fn innermost(state: Media) -> u32 {
+    state as u32
 }
 
 #[cfg(test)]
@@ -51,6 +88,10 @@ mod tests {
     #[test]
     fn leaving_what_was_never_entered_changes_nothing() {
         assert_eq!(leave(enter(OUTSIDE, 2), 5), enter(OUTSIDE, 2));
+        let full = (1..=4).fold(OUTSIDE, enter);
+        for state in [OUTSIDE, enter(OUTSIDE, 2), full] {
+            assert_eq!((leave(state, NO_BODY), found_inside(state, NO_BODY)), (state, state));
+        }
     }
 
     #[test]
@@ -66,5 +107,15 @@ mod tests {
         let deep = (1..=5).fold(OUTSIDE, enter);
         let out = [5, 4, 3, 2].into_iter().fold(deep, leave);
         assert_eq!(out, OUTSIDE);
+    }
+
+    #[test]
+    fn spheres_are_bodies_of_their_own_but_for_those_of_instances() {
+        let [first, second] = [0, 1].map(|row| body_of(PrimKind::Sphere, row, 0, 6));
+        assert_eq!([first, second].map(sphere_of), [Some(0), Some(1)]);
+        for (kind, instance) in [(PrimKind::Sphere, 4), (PrimKind::Plane, 0), (PrimKind::Triangle, 1)] {
+            let body = body_of(kind, 1, instance, 6);
+            assert_eq!((body, sphere_of(body)), (7, None));
+        }
     }
 }

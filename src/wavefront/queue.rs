@@ -4,6 +4,7 @@
 
 use bumpalo::Bump;
 
+use super::medium::Media;
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
 
 /// The least multiple of the packet width that holds `n`.
@@ -156,7 +157,7 @@ pub(super) struct PathQueue<'a, R> {
     /// Which sample of the wave the path belongs to.
     pub(super) slot: &'a mut [u32],
     /// Dielectrics that the ray is inside of, see [`super::medium`].
-    pub(super) medium: &'a mut [u64],
+    pub(super) medium: &'a mut [Media],
     /// Which split led here, for the dimensions of random numbers.
     pub(super) branch: &'a mut [u32],
 }
@@ -209,7 +210,7 @@ pub(super) struct PathLanes<L> {
     pub(super) direction: Vec3<L>,
     pub(super) throughput: Vec3<L>,
     pub(super) slot: [u32; WIDTH],
-    pub(super) medium: [u64; WIDTH],
+    pub(super) medium: [Media; WIDTH],
     pub(super) branch: [u32; WIDTH],
 }
 

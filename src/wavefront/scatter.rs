@@ -1,6 +1,6 @@
 //! Secondary rays: mirrored, refracted, scattered; one function a kind of material.
 
-use super::medium::{enter, found_inside, innermost, leave};
+use super::medium::{Media, NO_BODY, enter, found_inside, innermost, leave, material_of_body};
 use super::offset::offset_along;
 use super::queue::{PathLanes, PathQueue, Rows, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
@@ -21,7 +21,7 @@ struct Lanes<L: Lane> {
     direction: Vec3<L>,
     /// Throughput times what the material passes on.
     weight: Vec3<L>,
-    materials: [u32; WIDTH],
+    bodies: [u32; WIDTH],
     slot: [u32; WIDTH],
     path: [u32; WIDTH],
     from_inside: L::Mask,
@@ -72,7 +72,7 @@ fn gather<T: Tier>(
         shading_normal: surfaces.shading_normal().gather(rows),
         direction: surfaces.direction.gather(rows),
         weight,
-        materials,
+        bodies: rows.map(|row| surfaces.body.get(row).copied().unwrap_or(NO_BODY)),
         slot: rows.map(|row| surfaces.slot(row)),
         path: rows.map(|row| surfaces.path[row]),
         from_inside: Mask::from_bits(inside),
@@ -148,7 +148,7 @@ fn dielectric<T: Tier>(
     let inside = s.from_inside.bits();
     let near = eight(|i| match (paths.medium[s.path[i] as usize], inside >> i & 1) {
         (state, 0) => state,
-        (state, _) => found_inside(state, s.materials[i] as u16 + 1),
+        (state, _) => found_inside(state, s.bodies[i]),
     });
     let eta = refraction_index::<T>(worker, &through.medium) / refraction_index::<T>(worker, &near);
     let reflectance = fresnel_dielectric(s.direction.dot(s.shading_normal), eta);
@@ -170,21 +170,21 @@ fn dielectric<T: Tier>(
 }
 
 /// The dielectrics around the refracted rays: one more on the way in, one less on the way out.
-fn beyond<T: Tier>(s: &Lanes<T::Wide>, paths: &PathQueue<T::Real>) -> [u64; WIDTH] {
+fn beyond<T: Tier>(s: &Lanes<T::Wide>, paths: &PathQueue<T::Real>) -> [Media; WIDTH] {
     let inside = s.from_inside.bits();
     eight(|i| {
-        let (state, body) = (paths.medium[s.path[i] as usize], s.materials[i] as u16 + 1);
+        let (state, body) = (paths.medium[s.path[i] as usize], s.bodies[i]);
         if inside >> i & 1 != 0 { leave(state, body) } else { enter(state, body) }
     })
 }
 
 /// Index of refraction of the innermost dielectric; 1 outside of all.
-fn refraction_index<T: Tier>(worker: &Worker<T>, states: &[u64; WIDTH]) -> T::Wide {
-    let ior = &worker.frame.scene.materials.ior;
+fn refraction_index<T: Tier>(worker: &Worker<T>, states: &[Media; WIDTH]) -> T::Wide {
+    let scene = worker.frame.scene;
     T::Wide::from_fn(|i| {
         let index = match innermost(states[i]) {
-            0 => 1.0,
-            body => ior[usize::from(body) - 1],
+            NO_BODY => 1.0,
+            body => scene.materials.ior[material_of_body(&scene.geometry, body) as usize],
         };
         <T::Real as crate::math::Real>::from_f32(index)
     })

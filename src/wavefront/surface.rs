@@ -56,6 +56,16 @@ impl<L: Lane> HitLanes<L> {
 }
 
 impl<L: Lane> SurfaceLanes<L> {
+    /// `yes` where the mask is true, `no` elsewhere.
+    pub(super) fn select(mask: L::Mask, yes: Self, no: Self) -> Self {
+        Self {
+            point: Vec3::select(mask, yes.point, no.point),
+            error: L::select(mask, yes.error, no.error),
+            geometric_normal: Vec3::select(mask, yes.geometric_normal, no.geometric_normal),
+            shading_normal: Vec3::select(mask, yes.shading_normal, no.shading_normal),
+            uv: (L::select(mask, yes.uv.0, no.uv.0), L::select(mask, yes.uv.1, no.uv.1)),
+        }
+    }
     /// Rounds: one roundoff a coordinate, one for the addition of the offset, one for slack.
     fn narrow(s: SurfaceLanes<L::Double>) -> Self {
         let point = Vec3::<L>::narrow(s.point);

@@ -2,11 +2,12 @@
 
 use bumpalo::Bump;
 
+use super::contact::{Met, media_of};
 use super::extend::{Hits, KINDS};
 use super::queue::{
     Column3, PathQueue, Rows, column, compress, compress_words, gather, list_lanes, set_bits, words,
 };
-use super::surface::{HitLanes, SurfaceLanes, evaluate};
+use super::surface::{HitLanes, SurfaceLanes};
 use crate::geometry::{NO_MATERIAL, gather3};
 use crate::intersect::PrimId;
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
@@ -32,6 +33,8 @@ pub(super) struct SurfaceQueue<'a, R> {
     pub(super) path: &'a mut [u32],
     /// 1 where the path came from inside, against the outward normal.
     pub(super) from_inside: &'a mut [u32],
+    /// What the surface bounds, see [`super::medium`]; empty where the scene has no dielectrics.
+    pub(super) body: &'a mut [u32],
     /// Rows by what becomes of rays there.
     pub(super) by_scatter: [bumpalo::collections::Vec<'a, u32>; 4],
 }
@@ -55,6 +58,7 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
             material: column(arena, n),
             path: column(arena, n),
             from_inside: column(arena, n),
+            body: column(arena, if needs.scatters(Scatter::Dielectric) { n } else { 0 }),
             by_scatter: [list(), list(), list(), list()],
         }
     }
@@ -74,41 +78,36 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
                 let (rows, lanes) = list_lanes(list, at);
                 let paths = rows.offset(first);
                 let hit = gather_hits::<L>(queue, &paths, hits, &rows);
-                let surface = evaluate(&scene.geometry, kind, &hit);
-                let materials = eight(|i| material_of(scene, kind, hit.row[i], hit.instance[i]));
-                surfaces.push(scene, queue, &hit, surface, &paths, &materials, lanes);
+                let media = media_of(queue.medium, &paths);
+                let met = Met::new(scene, kind, &hit, media.as_ref());
+                surfaces.push(scene, queue, hit.direction, &met, &paths, lanes);
             }
         }
         surfaces
     }
 
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "one call, from the loop above; a struct would be made to be unpacked"
-    )]
     #[inline(always)]
     fn push<L: Lane<Scalar = R>>(
         &mut self,
         scene: &Scene,
         queue: &PathQueue<R>,
-        hit: &HitLanes<L>,
-        surface: SurfaceLanes<L>,
+        direction: Vec3<L>,
+        met: &Met<L>,
         paths: &Rows,
-        materials: &[u32; WIDTH],
         lanes: u32,
     ) {
         let at = self.len;
-        let inside = from_inside(hit, &surface);
-        let facing = |n: Vec3<L>| Vec3::select(inside, -n, n);
+        let Met { surface, materials, inside, bodies } = met;
+        let facing = |n: Vec3<L>| Vec3::select(*inside, -n, n);
         let geometric_normal = facing(surface.geometric_normal);
         self.point.compress(at, surface.point, lanes);
         compress(self.error, at, surface.error, lanes);
         self.geometric_normal.compress(at, geometric_normal, lanes);
         if let Some(normal) = &mut self.shading_normal {
-            let facing = towards(facing(surface.shading_normal), geometric_normal, hit.direction);
+            let facing = towards(facing(surface.shading_normal), geometric_normal, direction);
             normal.compress(at, facing, lanes);
         }
-        self.direction.compress(at, hit.direction, lanes);
+        self.direction.compress(at, direction, lanes);
         self.throughput.compress(at, queue.throughput.gather::<L>(paths), lanes);
         if let Some(diffuse) = &mut self.diffuse {
             let plain = gather3::<L>(&scene.materials.diffuse, materials);
@@ -119,6 +118,9 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         compress_words(self.path, at, &paths.number, lanes);
         let inside = inside.bits();
         compress_words(self.from_inside, at, &eight(|i| inside >> i & 1), lanes);
+        if !self.body.is_empty() {
+            compress_words(self.body, at, bodies, lanes);
+        }
         if scene.requirements.children() > 0 {
             self.sort_by_scatter(scene, materials, lanes);
         }
@@ -173,14 +175,14 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
 
 /// The lanes whose rays come from inside, against the outward normal.
 #[inline(always)]
-fn from_inside<L: Lane>(hit: &HitLanes<L>, surface: &SurfaceLanes<L>) -> L::Mask {
-    hit.direction.dot(surface.geometric_normal).gt(L::zero())
+pub(super) fn from_inside<L: Lane>(direction: Vec3<L>, surface: &SurfaceLanes<L>) -> L::Mask {
+    direction.dot(surface.geometric_normal).gt(L::zero())
 }
 
 /// Geometric and shading normal on the side that rays come from.
 #[inline(always)]
 pub(super) fn facing<L: Lane>(hit: &HitLanes<L>, surface: &SurfaceLanes<L>) -> [Vec3<L>; 2] {
-    let inside = from_inside(hit, surface);
+    let inside = from_inside(hit.direction, surface);
     let [geometric, shading] =
         [surface.geometric_normal, surface.shading_normal].map(|n| Vec3::select(inside, -n, n));
     [geometric, towards(shading, geometric, hit.direction)]

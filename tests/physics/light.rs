@@ -75,6 +75,25 @@ fn a_shadow_ray_stops_at_the_light() {
 }
 
 #[test]
+fn without_shadows_all_that_faces_a_light_is_lit() {
+    let ball = "[[sphere]]\ncenter = [0, 1, 0]\nradius = 0.2\n";
+    let sun = "[[light.directional]]\ndirection = [0, -1, 0]\nintensity = 1\n";
+    let eye = camera([0.3, 2.5, 4.0], [0.0; 3]);
+    let mut scene = parse(&format!("[render]\nsize = [1, 1]\nspp = 1\n{eye}{FLOOR}{ball}{sun}"));
+    scene.render.filter.radius = Some(0.0);
+    let mut seen = |shadows: bool| {
+        scene.render.shadows = shadows;
+        film(&scene).pixels[0].map(f64::from)[0]
+    };
+    near(seen(true), 0.0, "below the ball");
+    near(seen(false), 1.0, "below the ball, without shadows");
+    let below = "[[light.directional]]\ndirection = [0, 1, 0]\nintensity = 1\n";
+    let mut scene = parse(&format!("[render]\nsize = [1, 1]\nspp = 1\n{eye}{FLOOR}{below}"));
+    scene.render.shadows = false;
+    near(film(&scene).pixels[0].map(f64::from)[0], 0.0, "the back of a surface");
+}
+
+#[test]
 fn ambient_light_is_the_same_all_over_a_closed_box() {
     let text = "
 [camera]

@@ -178,3 +178,31 @@ fn the_f32_filters_reject_no_hit_of_f64() {
     }
     assert!(counts.iter().all(|[misses, hits]| misses.min(hits) > &40_000), "{counts:?}");
 }
+
+/// Where the product of direction and axis lies nearly along a coordinate axis the filter has no slack but its own.
+#[test]
+fn the_filter_of_cylinders_keeps_tangents_across_axes() {
+    let mut dice = Dice(5);
+    let mut counts = [0; 2];
+    for _ in 0..200_000 {
+        let (slope, far) = (dice.magnitude(-10.0, -5.0), dice.between(1.0, 200.0));
+        let radius = dice.between(0.5, 2.0) as f32;
+        let height = f64::from(radius) * (1.0 + slope * slope).sqrt() - slope * far;
+        let mut height = height as f32;
+        (0..dice.below(3)).for_each(|_| height = height.next_down());
+        let r = RayLanes {
+            origin: Vec3::new(-far as f32, height, 0.0),
+            direction: Vec3::new(1.0, slope as f32, 0.0),
+            t_min: 0.0,
+            t_max: f32::INFINITY,
+        };
+        let ends = [-1.0, 1.0].map(|z| Vec3::new(0.0, 0.0, z));
+        let c = cylinder::Lanes { from: ends[0], to: ends[1], radius, capped: true };
+        let [from, to] = ends.map(Vec3::widen);
+        let double = cylinder::Lanes { from, to, radius: f64::from(radius), capped: true };
+        let wide = cylinder::solve(&r.widen(), &double);
+        let kept = tier::Filtered::cylinder(&r, &c);
+        assert_kept("cylinder", (wide.mask, wide.t), kept.mask, &mut counts, &(r, c));
+    }
+    assert!(counts.iter().all(|&n| n > 10_000), "{counts:?}");
+}

@@ -11,7 +11,9 @@
 
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Lane, Mask, Pair, Real, Vec3, WIDTH, determinant, gamma_of, three, two_sum};
+use crate::math::{
+    Lane, Mask, Pair, Real, Vec3, WIDTH, determinant, determinant_sign, gamma_of, three, two_sum,
+};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
@@ -48,7 +50,7 @@ impl TriangleTest for ExactVolumes {
         if !mask.any() {
             return LaneHit::none();
         }
-        let (t, u, v) = coordinates(mask, ray, first, v);
+        let (mask, t, u, v) = coordinates(mask, ray, first, v);
         // A zero of either sign becomes the positive one: equal distances have equal bits.
         LaneHit { mask, t: t.clamp(first, last) + L::zero(), u, v }
     }
@@ -86,15 +88,15 @@ impl<D: Lane<Scalar = f64>> Sides<D> {
         let d = ray.direction;
         let [a, b, c] = three(|k| v[k] - ray.origin);
         let error = size(d) * D::constant(gamma_of(ROUNDINGS, f64::ROUNDOFF));
-        let edge = |p: Vec3<D>, q: Vec3<D>| {
-            let (volume, error) = (d.dot(p.cross(q)), size(p) * size(q) * error);
-            (volume.gt(error), volume.lt(-error), volume.is_finite())
-        };
-        let [(p0, n0, f0), (p1, n1, f1), (p2, n2, f2)] = [edge(b, c), edge(c, a), edge(a, b)];
+        let (around_b, sizes) = (d.cross(b), [size(a), size(b), size(c)]);
+        let volumes = [around_b.dot(c), d.dot(c.cross(a)), -around_b.dot(a)];
+        let errors = [sizes[1] * sizes[2] * error, sizes[2] * sizes[0] * error, sizes[0] * sizes[1] * error];
+        let [(p0, n0), (p1, n1), (p2, n2)] = three(|k| (volumes[k].gt(errors[k]), volumes[k].lt(-errors[k])));
         let inside = (p0 & p1 & p2) | (n0 & n1 & n2);
         let outside = (p0 | p1 | p2) & (n0 | n1 | n2);
         // Padding is NaN, which no doubt is about.
-        Self { inside, doubtful: !(inside | outside) & (f0 & f1 & f2) }
+        let finite = (volumes[0] + volumes[1] + volumes[2]).is_finite();
+        Self { inside, doubtful: !(inside | outside) & finite }
     }
 }
 
@@ -111,29 +113,46 @@ fn inside_exactly<L: Lane>(lanes: u32, ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> u3
     (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0 && inside(*i)).map(|i| 1 << i).sum()
 }
 
-/// `t, u, v` of the lanes of the mask; only `t`, if that will do to see that a hit which counts as one from `first` on is
-/// behind the ray: that of most rays that leave the triangle.
+/// `t, u, v` of the lanes of the mask, and which of them may be in front of the ray, counting from `first` on.
 #[inline(always)]
-fn coordinates<L: Lane>(mask: L::Mask, ray: &RayLanes<L>, first: L, v: [Vec3<L>; 3]) -> (L, L, L) {
+fn coordinates<L: Lane>(mask: L::Mask, ray: &RayLanes<L>, first: L, v: [Vec3<L>; 3]) -> (L::Mask, L, L, L) {
     let corners = three(|k| v[k].widen());
     let (d, s) = (ray.direction.widen(), ray.origin.widen() - corners[0]);
     let (e1, e2) = (corners[1] - corners[0], corners[2] - corners[0]);
     let (p, q) = (d.cross(e2), s.cross(e1));
     let (slope, height) = (e1.dot(p), e2.dot(q));
     let least = size(e1) * size(e2) * Lane::constant(LEAST_SHARE);
-    let good = slope.abs().gt(least * size(d)) & height.abs().gt(least * size(s));
+    let steep = slope.abs().gt(least * size(d));
+    let good = steep & height.abs().gt(least * size(s));
     let scale = <L::Double as Lane>::one() / slope;
     let mut found = [height * scale, s.dot(p) * scale, d.dot(q) * scale].map(L::narrow);
-    let bad = (mask & !L::narrow_mask(good)).bits();
-    if bad != 0 {
-        coordinates_exactly(bad, ray, first, v, &mut found);
+    let mut mask = mask;
+    let unsure = mask & !L::narrow_mask(good);
+    if unsure.any() {
+        let leaves = unsure & L::narrow_mask(steep & is_behind(slope, s, e1, e2));
+        mask = mask & !(leaves & first.max(L::zero()).le(ray.t_min));
+        let bad = (mask & unsure).bits();
+        if bad != 0 {
+            mask = mask & !L::Mask::from_bits(coordinates_exactly(bad, ray, first, v, &mut found));
+        }
     }
     let (zero, one) = (L::zero(), L::one());
     let u = found[1].clamp(zero, one);
-    (found[0], u, found[2].clamp(zero, one - u))
+    (mask, found[0], u, found[2].clamp(zero, one - u))
 }
 
-/// Replaces the lanes given as bits.
+/// Where rays that are not parallel to the plane certainly start beyond it: those that leave a triangle. The bound is that
+/// of the terms themselves, so that planes across an axis are told apart to the last bit.
+#[inline(always)]
+fn is_behind<D: Lane<Scalar = f64>>(slope: D, s: Vec3<D>, e1: Vec3<D>, e2: Vec3<D>) -> D::Mask {
+    let (a, b) = (e1.abs(), e2.abs());
+    let sizes = Vec3::new(a.y * b.z + a.z * b.y, a.z * b.x + a.x * b.z, a.x * b.y + a.y * b.x);
+    let height = s.dot(e1.cross(e2));
+    let error = s.abs().dot(sizes) * D::constant(gamma_of(ROUNDINGS, f64::ROUNDOFF));
+    height.with_sign_of(slope * height).lt(-error)
+}
+
+/// Replaces the lanes given as bits; gives those of them that are not in front of the ray, counting from `first` on.
 #[cold]
 fn coordinates_exactly<L: Lane>(
     lanes: u32,
@@ -141,15 +160,20 @@ fn coordinates_exactly<L: Lane>(
     first: L,
     v: [Vec3<L>; 3],
     found: &mut [L; 3],
-) {
+) -> u32 {
+    let mut behind = 0;
     for i in (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0) {
         let lane = L::Mask::from_bits(1 << i);
         let (first, t_min) = (first.get(i).to_f64(), ray.t_min.get(i).to_f64());
-        let exact = Lane1::of(i, ray, v).coordinates(|t| t.max(first) <= t_min);
+        let Some(exact) = Lane1::of(i, ray, v).coordinates(|t| t.max(first) > t_min) else {
+            behind |= 1 << i;
+            continue;
+        };
         for (found, exact) in found.iter_mut().zip(exact) {
             *found = L::select(lane, L::constant(exact), *found);
         }
     }
+    behind
 }
 
 /// One ray and one triangle.
@@ -171,17 +195,21 @@ impl Lane1 {
         Weights([(&b, &c), (&c, &a), (&a, &b)].map(|(p, q)| determinant(&d, p, q)))
     }
 
-    /// `t, u, v`; only `t` where that is `enough`.
-    fn coordinates(&self, enough: impl Fn(f64) -> bool) -> [f64; 3] {
+    /// `t, u, v`, if `t` is in front.
+    fn coordinates(&self, is_in_front: impl Fn(f64) -> bool) -> Option<[f64; 3]> {
         let [v0, v1, v2] = self.corners;
         let (e1, e2) = (difference(v1, v0), difference(v2, v0));
         let slope = determinant(&self.direction.map(|x| [x, 0.0]), &e1, &e2);
-        let height = determinant(&difference(v0, self.origin), &e1, &e2);
-        if enough(height / slope) {
-            return [height / slope, 0.0, 0.0];
+        let from = difference(v0, self.origin);
+        if slope * determinant_sign(&from, &e1, &e2) < 0.0 && !is_in_front(0.0) {
+            return None;
+        }
+        let height = determinant(&from, &e1, &e2);
+        if !is_in_front(height / slope) {
+            return None;
         }
         let Weights([_, u, v]) = self.weights();
-        [height / slope, u / slope, v / slope]
+        Some([height / slope, u / slope, v / slope])
     }
 }
 

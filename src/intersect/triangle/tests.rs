@@ -124,6 +124,28 @@ fn the_exact_test_is_exact() {
     assert!(hits > 10_000 && on_edges > 3_000, "{hits} {on_edges}");
 }
 
+/// Rays that start within some roundoffs of a triangle, as those do that leave one: what lies in front is hit, and nothing else.
+#[test]
+fn the_exact_test_tells_before_from_behind() {
+    let mut dice = Dice(16);
+    let mut sides = [0, 0];
+    for _ in 0..30_000 {
+        let v: [[f32; 3]; 3] = std::array::from_fn(|_| dice.point().map(|x| x as f32));
+        let weights = aim(&mut dice);
+        let by = 1e-17 * dice.below(60) as f64;
+        let aside = dice.heading();
+        let on = |k: usize| (0..3).map(|i| weights[i] * f64::from(v[i][k])).sum::<f64>();
+        let ray =
+            RayLanes { t_min: 0.0, ..line(std::array::from_fn(|k| on(k) + by * aside[k]), dice.heading()) };
+        let v = v.map(|p| Vec3::splat(p.map(f64::from)));
+        let (got, want) = (meet::<ExactVolumes, f64>(&ray, v), exact::triangle(&ray, v));
+        let Some(want) = want else { continue };
+        assert_eq!(got.mask && got.t > 0.0, want > 0.0, "{want:e} of {ray:?} {v:?}");
+        sides[usize::from(want > 0.0)] += 1;
+    }
+    assert!(sides.iter().all(|&n| n > 8_000), "{sides:?}");
+}
+
 /// Eight triangles for one ray: candidates hold all that the plain test accepts, and the test of a candidate says the same.
 #[test]
 fn candidates_of_the_exact_test_say_the_same() {

@@ -30,7 +30,8 @@ fn others(scene: &Scene, base: &Setting) -> Vec<Setting> {
     let shrinks = SHRINKS.iter().filter(|&&by| scene.settings.size.iter().all(|side| side % by == 0));
     let shrinks = shrinks.map(|&shrink| Setting { shrink, ..*base });
     let bounces = scene.requirements.scatters(Scatter::Diffuse).then_some(Setting { bounce: false, ..*base });
-    let all = samplers.chain(depths).chain(cutoffs).chain(shrinks).chain(bounces);
+    let shadows = has_shadows(scene).then_some(Setting { shadows: false, ..*base });
+    let all = samplers.chain(depths).chain(cutoffs).chain(shrinks).chain(shadows).chain(bounces);
     all.filter(|setting| setting != base).collect()
 }
 
@@ -44,6 +45,10 @@ fn depths(scene: &Scene) -> Vec<u32> {
     depths.sort_unstable();
     depths.dedup();
     depths
+}
+
+fn has_shadows(scene: &Scene) -> bool {
+    scene.requirements.lights && scene.settings.shadows
 }
 
 fn cutoffs(scene: &Scene) -> &'static [f64] {
@@ -74,10 +79,15 @@ mod tests {
         assert_eq!(values(&terrain, "depth").len(), 1, "nothing is mirrored there");
         assert_eq!(values(&terrain, "cutoff").len(), 1);
         assert!(values(&glass, "depth").len() > 3 && values(&glass, "cutoff").len() == 4);
+        assert_eq!(values(&glass, "shadows"), ["no", "yes"]);
+        let amended = |name: &str, set: &str| {
+            let scene = builtin(name).unwrap().unwrap().amended(name, &[set.to_owned()]).unwrap();
+            grid(&Scene::compile(&scene).unwrap())
+        };
+        assert_eq!(values(&amended("glass", "render.shadows=false"), "shadows"), ["no"], "it wants none");
+        assert_eq!(values(&amended("glass", "light={}"), "shadows"), ["yes"], "nothing casts any");
         assert_eq!(values(&glass, "bounce"), ["yes"], "no surface of it scatters");
-        let bounce = "material.0.bounce=true".to_owned();
-        let cornell = builtin("cornell").unwrap().unwrap().amended("cornell", &[bounce]).unwrap();
-        assert_eq!(values(&grid(&Scene::compile(&cornell).unwrap()), "bounce"), ["no", "yes"]);
+        assert_eq!(values(&amended("cornell", "material.0.bounce=true"), "bounce"), ["no", "yes"]);
     }
 
     #[test]

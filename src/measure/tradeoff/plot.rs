@@ -15,7 +15,7 @@ const SIZE: (u32, u32) = (760, 470);
 /// What rows are told apart by: a name, a colour, and which rows.
 type Group = (&'static str, RGBColor, fn(&Row) -> bool);
 
-const GROUPS: [Group; 8] = [
+const GROUPS: [Group; 9] = [
     ("fast", RGBColor(230, 119, 0), |row| of_tier(row, TierName::Fast)),
     ("watertight", RGBColor(28, 100, 200), |row| of_tier(row, TierName::Watertight)),
     ("exact", RGBColor(20, 20, 20), |row| of_tier(row, TierName::Exact)),
@@ -23,6 +23,7 @@ const GROUPS: [Group; 8] = [
     ("depth", RGBColor(30, 140, 60), |row| row.change == Some("depth")),
     ("cutoff", RGBColor(140, 90, 40), |row| row.change == Some("cutoff")),
     ("size", RGBColor(110, 70, 190), |row| row.change == Some("size")),
+    ("shadows", RGBColor(90, 90, 90), |row| row.change == Some("shadows")),
     ("bounce", RGBColor(0, 150, 160), |row| row.change == Some("bounce")),
 ];
 const FRONT: Group = ("nothing beats it", RGBColor(210, 30, 30), |row| row.on_front);

@@ -104,6 +104,7 @@ pub(super) mod tests {
             max_depth: 6,
             min_throughput: 0.0,
             shrink: 1,
+            shadows: true,
             bounce: true,
         };
         let figures = Figures {

@@ -25,6 +25,8 @@ pub struct Setting {
     pub min_throughput: f64,
     /// The picture is smaller by this factor along both sides, and enlarged again to be compared.
     pub shrink: u32,
+    /// Whether what stands before a light takes it away.
+    pub shadows: bool,
     /// Whether diffuse surfaces send rays on where the scene wants it.
     pub bounce: bool,
 }
@@ -40,6 +42,7 @@ impl Setting {
             max_depth: s.max_depth,
             min_throughput: s.min_throughput,
             shrink: 1,
+            shadows: s.shadows,
             bounce: true,
         }
     }
@@ -50,7 +53,8 @@ impl Setting {
     }
 
     /// The names of what may change, and the values here.
-    pub fn fields(&self) -> [(&'static str, String); 7] {
+    pub fn fields(&self) -> [(&'static str, String); 8] {
+        let yes_no = |yes: bool| if yes { "yes".into() } else { "no".into() };
         let cutoff = match self.min_throughput {
             0.0 => "0".into(),
             least => format!("1/{:.0}", 1.0 / least),
@@ -62,7 +66,8 @@ impl Setting {
             ("depth", self.max_depth.to_string()),
             ("cutoff", cutoff),
             ("size", if self.shrink == 1 { "full".into() } else { format!("1/{}", self.shrink) }),
-            ("bounce", if self.bounce { "yes".into() } else { "no".into() }),
+            ("shadows", yes_no(self.shadows)),
+            ("bounce", yes_no(self.bounce)),
         ]
     }
 
@@ -95,13 +100,14 @@ impl fmt::Display for Setting {
 impl Serialize for Setting {
     fn serialize<S: serde::Serializer>(&self, serializer: S) -> Result<S::Ok, S::Error> {
         use serde::ser::SerializeStruct;
-        let mut fields = serializer.serialize_struct("Setting", 7)?;
+        let mut fields = serializer.serialize_struct("Setting", 8)?;
         fields.serialize_field("tier", self.tier.name())?;
         fields.serialize_field("spp", &self.spp)?;
         fields.serialize_field("sampler", sampler_name(self.sampler))?;
         fields.serialize_field("max_depth", &self.max_depth)?;
         fields.serialize_field("min_throughput", &self.min_throughput)?;
         fields.serialize_field("shrink", &self.shrink)?;
+        fields.serialize_field("shadows", &self.shadows)?;
         fields.serialize_field("bounce", &self.bounce)?;
         fields.end()
     }
@@ -133,6 +139,7 @@ impl Stage {
         let s = &mut scene.settings;
         (s.tier, s.spp, s.sampler) = (setting.tier, setting.spp, setting.sampler);
         (s.max_depth, s.min_throughput) = (setting.max_depth, setting.min_throughput);
+        s.shadows = setting.shadows;
         s.size = self.size.map(|side| side / setting.shrink);
         let materials = Arc::make_mut(&mut scene.materials);
         materials.scatter.clone_from(&self.scatter);

@@ -8,6 +8,8 @@ use crate::intersect::TierName;
 pub enum Promise {
     /// Closed meshes.
     Closed,
+    /// Closed meshes, of which nothing is asked but whether rays get out.
+    Leaks,
     /// Triangles within the domain.
     Triangles,
     /// Triangles seen edge-on, where `f32` edges leave `t` anywhere between the corners.
@@ -24,8 +26,6 @@ pub enum Promise {
     Leaving,
     /// Paths through glass.
     Glass,
-    /// Paths through gaps that get thinner than `f32`, and at last `f64`, resolves.
-    Contact,
     /// Beyond the domain: measured, not promised.
     None,
 }
@@ -68,9 +68,7 @@ impl Promise {
             (Self::Boxes, _) => Bounds { missed: zero, differing, ..NOTHING },
             (_, TierName::Fast) => NOTHING,
             (Self::None, _) => Bounds { differing, ..NOTHING },
-            (Self::Contact, TierName::Watertight) => NOTHING,
-            // Within some 1e-7 of where spheres touch the gap is thinner than roundoffs of `f64` too.
-            (Self::Contact, TierName::Exact) => Bounds { self_hits: Some(100.0), ..NOTHING },
+            (Self::Leaks, _) => Bounds { leaks: zero, ..NOTHING },
             (Self::Leaving | Self::Glass, _) => Bounds { self_hits: zero, ..NOTHING },
             (_, TierName::Watertight) => self.watertight(),
             (_, TierName::Exact) => self.exact(),

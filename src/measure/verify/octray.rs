@@ -114,7 +114,7 @@ impl<T: Tier> Asked<'_, T> {
     }
 }
 
-fn usable_lanes<T: Tier>(rays: &[Ray]) -> RayLanes<T::Wide> {
+pub(in crate::measure::verify) fn usable_lanes<T: Tier>(rays: &[Ray]) -> RayLanes<T::Wide> {
     lanes::<T>(rays).unwrap_or_else(|| RayLanes {
         origin: Vec3::zero(),
         direction: Vec3::splat_f32([0.0, 0.0, 1.0]),
@@ -163,14 +163,14 @@ fn each_primitive<T: Tier>(g: &Geometry, rays: &RayLanes<T::Wide>) -> Closest<T:
 }
 
 /// Rays by columns, for streams.
-struct Columns<R> {
+pub(in crate::measure::verify) struct Columns<R> {
     axes: [Vec<R>; 6],
     t_min: Vec<R>,
     t_max: Vec<R>,
 }
 
 impl<R: Real> Columns<R> {
-    fn of<L: Lane<Scalar = R>>(packets: &[RayLanes<L>]) -> Self {
+    pub(in crate::measure::verify) fn of<L: Lane<Scalar = R>>(packets: &[RayLanes<L>]) -> Self {
         let column = |of: fn(&RayLanes<L>) -> L| -> Vec<R> {
             packets.iter().flat_map(|packet| (0..WIDTH).map(move |i| of(packet).get(i))).collect()
         };
@@ -188,7 +188,7 @@ impl<R: Real> Columns<R> {
         }
     }
 
-    fn rays(&self, len: usize) -> RayColumns<'_, R> {
+    pub(in crate::measure::verify) fn rays(&self, len: usize) -> RayColumns<'_, R> {
         let [ox, oy, oz, dx, dy, dz] = self.axes.each_ref().map(|column| &column[..]);
         let (t_min, t_max) = (Bound::Each(&self.t_min), Bound::Each(&self.t_max));
         RayColumns { len, origin: [ox, oy, oz], direction: [dx, dy, dz], t_min, t_max }

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use rayon::prelude::*;
 
 use super::bounds::Bounds;
-use super::families::{Family, PATHS};
+use super::families::Family;
 use super::octray::Octray;
 use super::report::FamilyReport;
 use super::tally::{Answers, Numbers, Tally};
@@ -34,9 +34,9 @@ pub struct Effort {
 pub fn verify_family(family: &Family, tiers: &[TierName], effort: Effort) -> Vec<FamilyReport> {
     let subjects: Vec<Box<dyn Subject>> = tiers.iter().map(|&tier| subject(tier)).collect();
     let subjects: Vec<&dyn Subject> = subjects.iter().map(|subject| &**subject).collect();
-    let tallies = match family.is_walked() {
-        true => tiers.iter().map(|&tier| walks(family, tier, effort)).collect(),
-        false => tallies(family, &subjects, effort),
+    let tallies = match family.rays_a_walk() {
+        Some(rays) => tiers.iter().map(|&tier| walks(family, tier, effort, rays)).collect(),
+        None => tallies(family, &subjects, effort),
     };
     let report = |(&tier, tally): (&TierName, Tally)| {
         FamilyReport::new(family.name, tier.name(), tally, &family.promise.bounds(tier))
@@ -77,9 +77,9 @@ fn tallies(family: &Family, subjects: &[&dyn Subject], effort: Effort) -> Vec<Ta
     judged.collect::<Vec<_>>().into_iter().fold(none(), join)
 }
 
-/// Paths, which no oracle judges but what must come next.
-fn walks(family: &Family, tier: TierName, effort: Effort) -> Tally {
-    let trials = effort.rays.div_ceil(PATHS) as u64;
+/// Walks, which no oracle judges but what must come next.
+fn walks(family: &Family, tier: TierName, effort: Effort, rays: usize) -> Tally {
+    let trials = effort.rays.div_ceil(rays) as u64;
     let walked = (0..trials).into_par_iter().filter_map(|number| family.walk(tier, effort.seed, number));
     walked.collect::<Vec<_>>().into_iter().fold(Tally::default(), Tally::join)
 }

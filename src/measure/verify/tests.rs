@@ -22,7 +22,7 @@ fn hold(names: &[&str]) {
 
 #[test]
 fn closed_meshes_do_not_leak() {
-    hold(&["closed-inside", "closed-outside", "along-edges"]);
+    hold(&["closed-inside", "closed-outside", "along-edges", "leaks"]);
 }
 
 #[test]
@@ -52,7 +52,7 @@ fn mixed_scenes_keep_their_bounds() {
 
 #[test]
 fn rays_that_leave_surfaces_do_not_hit_them() {
-    hold(&["leaving", "glass-chain", "glass-touching", "glass-shells", "critical-angle"]);
+    hold(&["leaving", "glass-chain", "glass-touching", "glass-far", "glass-shells", "critical-angle"]);
 }
 
 /// A family that no test names would not be held to its bounds.

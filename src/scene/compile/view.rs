@@ -95,6 +95,7 @@ impl RenderSettings {
             size: r.size,
             spp: r.spp,
             max_depth: r.max_depth,
+            shadows: r.shadows,
             seed: r.seed,
             tier: match r.tier {
                 describe::Tier::Fast => TierName::Fast,

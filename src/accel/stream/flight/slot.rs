@@ -13,7 +13,7 @@ use crate::accel::query::Query;
 use crate::accel::unchecked;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::{LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, three};
+use crate::math::{Lane, Mask, Real, Vec3, three};
 
 /// A ray under way; what the node pass needs stands first, in one cache line.
 #[derive(Clone, Copy)]
@@ -127,7 +127,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
 }
 
 fn cull_ray<T: Tier>(ray: &RayLanes<T::Real>, tree: TreeRoot) -> CullRay<f32> {
-    let narrow = |x: T::Real| T::nearest_f32(T::Wide::splat(x)).get(0);
+    let narrow = |x: T::Real| x.to_f32();
     let narrow3 = |v: Vec3<T::Real>| Vec3::new(narrow(v.x), narrow(v.y), narrow(v.z));
     let origin = narrow3(ray.origin);
     CullRay::new(origin, narrow3(ray.direction), tree.scale_for(origin))

@@ -33,7 +33,7 @@ pub(super) const FAMILIES: &[Family] = &[
 const RAYS: usize = 64;
 
 /// A closed convex mesh, where it stands.
-struct Placed {
+pub(super) struct Placed {
     triangles: Vec<[[f32; 3]; 3]>,
     center: [f64; 3],
     size: f64,
@@ -41,11 +41,16 @@ struct Placed {
 
 impl Placed {
     fn new(dice: &mut Dice) -> Self {
-        let mesh: Mesh = match dice.below(4) {
+        let mesh = match dice.below(4) {
             0 => tetrahedron(),
             1 => cube(),
             n => icosphere(n - 2),
         };
+        Self::at_random(dice, &mesh)
+    }
+
+    /// Of any size, turned or not, up to 30 sizes from the origin.
+    pub(super) fn at_random(dice: &mut Dice, mesh: &Mesh) -> Self {
         let size = dice.magnitude(-12.0, 9.0).abs();
         let center = dice.point().map(|x| x * size * [0.0, 1.0, 30.0][dice.below(3)]);
         let turned = if dice.below(3) == 0 { None } else { Some(dice.heading()) };
@@ -60,7 +65,17 @@ impl Placed {
         blend(triangle, weights(dice))
     }
 
-    fn trial(self, claim: Claim, rays: Vec<Ray>) -> Trial {
+    /// A ray from inside at a vertex, an edge or a face: from a common point or one of its own.
+    pub(super) fn ray_from_inside(&self, dice: &mut Dice, common: Option<[f64; 3]>) -> Ray {
+        let origin = common.unwrap_or_else(|| self.point_inside(dice));
+        of_length_one(towards(origin, self.target(dice)))
+    }
+
+    pub(super) fn point_inside(&self, dice: &mut Dice) -> [f64; 3] {
+        add(self.center, dice.point(), 0.2 * self.size)
+    }
+
+    pub(super) fn trial(self, claim: Claim, rays: Vec<Ray>) -> Trial {
         Trial { shapes: self.triangles.into_iter().map(Shape::Triangle).collect(), rays, claim }
     }
 }
@@ -74,13 +89,8 @@ fn half_turn(axis: [f64; 3], p: [f64; 3]) -> [f64; 3] {
 /// Now from one point, now each from its own.
 fn inside(dice: &mut Dice) -> Trial {
     let mesh = Placed::new(dice);
-    let from = |dice: &mut Dice| add(mesh.center, dice.point(), 0.2 * mesh.size);
-    let common = (dice.below(2) == 0).then(|| from(dice));
-    let ray = |dice: &mut Dice| {
-        let origin = common.unwrap_or_else(|| from(dice));
-        of_length_one(towards(origin, mesh.target(dice)))
-    };
-    let rays = (0..RAYS).map(|_| ray(dice)).collect();
+    let common = (dice.below(2) == 0).then(|| mesh.point_inside(dice));
+    let rays = (0..RAYS).map(|_| mesh.ray_from_inside(dice, common)).collect();
     mesh.trial(Claim::Inside, rays)
 }
 

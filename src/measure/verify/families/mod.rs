@@ -4,12 +4,12 @@ mod aim;
 mod boxes;
 mod closed;
 mod cylinders;
+mod glass;
+mod leaks;
 mod mixed;
 mod paths;
 mod spheres;
 mod triangles;
-
-pub(super) use paths::PATHS;
 
 use super::bounds::Promise;
 use super::tally::Tally;
@@ -34,15 +34,21 @@ pub struct Family {
 enum Make {
     /// Rays for any intersector.
     Rays(fn(&mut Dice) -> Trial),
-    /// Paths that octray walks by itself, tier by tier.
-    Paths([fn(&mut Dice, &mut Tally); 3]),
+    /// So many rays that octray walks by itself, tier by tier.
+    Walks(usize, [fn(&mut Dice, &mut Tally); 3]),
 }
 
 impl Family {
     /// All families.
     pub fn all() -> impl Iterator<Item = &'static Self> {
-        let tables =
-            [closed::FAMILIES, triangles::FAMILIES, spheres::FAMILIES, cylinders::FAMILIES, boxes::FAMILIES];
+        let tables = [
+            closed::FAMILIES,
+            leaks::FAMILIES,
+            triangles::FAMILIES,
+            spheres::FAMILIES,
+            cylinders::FAMILIES,
+            boxes::FAMILIES,
+        ];
         tables.into_iter().chain([mixed::FAMILIES, paths::FAMILIES]).flatten()
     }
 
@@ -55,7 +61,7 @@ impl Family {
     pub fn trial(&self, seed: u64, number: u64) -> Option<Trial> {
         match self.make {
             Make::Rays(make) => Some(make(&mut self.dice(seed, number))),
-            Make::Paths(_) => None,
+            Make::Walks(..) => None,
         }
     }
 
@@ -64,13 +70,17 @@ impl Family {
         (0..).map_while(move |number| self.trial(seed, number))
     }
 
-    pub(super) fn is_walked(&self) -> bool {
-        matches!(self.make, Make::Paths(_))
+    /// Rays of a walk, if this is a family of walks.
+    pub(super) fn rays_a_walk(&self) -> Option<usize> {
+        match self.make {
+            Make::Walks(rays, _) => Some(rays),
+            Make::Rays(_) => None,
+        }
     }
 
-    /// Walks some paths in a tier, if this is a family of paths.
+    /// Walks once in a tier, if this is a family of walks.
     pub(super) fn walk(&self, tier: TierName, seed: u64, number: u64) -> Option<Tally> {
-        let Make::Paths(walks) = self.make else { return None };
+        let Make::Walks(_, walks) = self.make else { return None };
         let mut tally = Tally::default();
         walks[tier as usize](&mut self.dice(seed, number), &mut tally);
         Some(tally)

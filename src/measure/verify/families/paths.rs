@@ -1,8 +1,8 @@
 //! Rays that start where others hit: away from surfaces, and through glass. Made by the renderer's own steps in each tier.
 
-use super::{Family, Make};
+use super::{Family, Make, glass};
 use crate::accel::brute::{self, NearestHit};
-use crate::geometry::{Geometry, Group, NO_MATERIAL};
+use crate::geometry::{Geometry, NO_MATERIAL};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::{Exact, Fast, RayLanes, Tier, Watertight};
 use crate::math::{Lane, Real, Vec3, WIDTH};
@@ -10,7 +10,7 @@ use crate::measure::verify::bounds::Promise;
 use crate::measure::verify::families::aim::{across, add, rounded, towards, triangle};
 use crate::measure::verify::tally::{Fault, Tally};
 use crate::measure::verify::trial::{Claim, Shape, Trial};
-use crate::shading::{fresnel_dielectric, reflect, refract};
+use crate::shading::{fresnel_dielectric, refract};
 use crate::wavefront::{HitLanes, evaluate, offset_along};
 
 pub(super) const FAMILIES: &[Family] = &[
@@ -18,39 +18,48 @@ pub(super) const FAMILIES: &[Family] = &[
         name: "leaving",
         about: "from just computed hit points outwards, at any angle; sizes 1e-3 to 1e6, up to 1e3 sizes from the origin",
         promise: Promise::Leaving,
-        make: Make::Paths([leaving::<Fast>, leaving::<Watertight>, leaving::<Exact>]),
+        make: Make::Walks(PATHS, [leaving::<Fast>, leaving::<Watertight>, leaving::<Exact>]),
     },
     Family {
         name: "glass-chain",
         about: "through ten glass spheres in a row up to 1e3 from the origin: 20 interfaces, also of ior near 1",
         promise: Promise::Glass,
-        make: Make::Paths([chain::<Fast>, chain::<Watertight>, chain::<Exact>]),
+        make: Make::Walks(PATHS, [glass::chain::<Fast>, glass::chain::<Watertight>, glass::chain::<Exact>]),
     },
     Family {
         name: "glass-touching",
-        about: "the same where the spheres touch, so that gaps are thinner than f32 can tell at that distance",
-        promise: Promise::Contact,
-        make: Make::Paths([contact::<Fast>, contact::<Watertight>, contact::<Exact>]),
+        about: "the same where the spheres touch, so that gaps are thinner than any roundoff",
+        promise: Promise::Glass,
+        make: Make::Walks(
+            PATHS,
+            [glass::contact::<Fast>, glass::contact::<Watertight>, glass::contact::<Exact>],
+        ),
+    },
+    Family {
+        name: "glass-far",
+        about: "the same up to 1e5 from the origin, where f32 has seven bits for what lies within a unit",
+        promise: Promise::Glass,
+        make: Make::Walks(PATHS, [glass::far::<Fast>, glass::far::<Watertight>, glass::far::<Exact>]),
     },
     Family {
         name: "glass-shells",
         about: "through ten glass spheres one inside the other: 20 interfaces",
         promise: Promise::Glass,
-        make: Make::Paths([shells::<Fast>, shells::<Watertight>, shells::<Exact>]),
+        make: Make::Walks(
+            PATHS,
+            [glass::shells::<Fast>, glass::shells::<Watertight>, glass::shells::<Exact>],
+        ),
     },
     Family {
         name: "critical-angle",
         about: "refraction at the critical angle, within some roundoffs: finite, of length one, on the right side",
         promise: Promise::Glass,
-        make: Make::Paths([critical::<Fast>, critical::<Watertight>, critical::<Exact>]),
+        make: Make::Walks(PATHS, [critical::<Fast>, critical::<Watertight>, critical::<Exact>]),
     },
 ];
 
 /// Paths of a trial.
-pub(in crate::measure::verify) const PATHS: usize = 16;
-
-/// Interfaces that a path through glass meets at most.
-const INTERFACES: usize = 20;
+pub(super) const PATHS: usize = 16;
 
 type Point<R> = Vec3<R>;
 
@@ -59,7 +68,7 @@ fn ray<R: Real>(origin: Point<R>, direction: Vec3<R>) -> RayLanes<R> {
     RayLanes { origin, direction, t_min: R::zero(), t_max: R::constant(f64::INFINITY) }
 }
 
-fn vector<R: Real>(v: [f64; 3]) -> Vec3<R> {
+pub(super) fn vector<R: Real>(v: [f64; 3]) -> Vec3<R> {
     Vec3::splat(v.map(R::from_f64))
 }
 
@@ -97,19 +106,11 @@ impl<R: Real> Surface<R> {
 
 fn leaving<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
     let size = dice.magnitude(-3.0, 6.0).abs();
-    let center = dice.point().map(|x| x * size * [0.0, 1.0, 1e3][dice.below(3)]);
-    let shape = match dice.below(3) {
-        0 => Shape::Triangle(triangle(dice, center, size)),
-        1 => Shape::Sphere { center: rounded(center), radius: size as f32 },
-        _ => {
-            let to = add(center, dice.heading(), size * dice.magnitude(-1.0, 1.0).abs());
-            Shape::Cylinder { from: rounded(center), to: rounded(to), radius: (0.5 * size) as f32 }
-        }
-    };
-    let trial = Trial { shapes: vec![shape], rays: Vec::new(), claim: Claim::Leaving };
-    let g = trial.geometry();
+    let away = dice.point().map(|x| x * size * [0.0, 1.0, 1e3][dice.below(3)]);
+    let (g, center) = alone(dice, size, away);
     for _ in 0..PATHS {
-        let target = add(center, dice.point(), 0.5 * size);
+        let reach = [0.5 * size, 1e-3 * size][dice.below(2)];
+        let target = add(center, dice.point(), reach);
         let first = RayLanes::from(&towards(add(center, dice.heading(), 12.0 * size), target));
         let first =
             ray::<T::Real>(vector(first.origin.widen().get(0)), vector(first.direction.widen().get(0)));
@@ -125,113 +126,47 @@ fn leaving<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
         tally.rays += 1;
         if let Some(again) = brute::closest::<T>(&g, &next) {
             tally.hits += 1;
-            tally.add(Fault::SelfHit, || format!("{next:?} leaves {shape:?} and hits it at {:?}", again.t));
+            tally.add(Fault::SelfHit, || format!("{next:?} leaves {g:?} and hits it at {:?}", again.t));
         }
     }
 }
 
-/// Spheres of glass, and what a path through them may meet next.
-struct Glass {
-    g: Geometry,
-    center: [f64; 3],
-    axis: [f64; 3],
-    ior: f64,
-}
-
-impl Glass {
-    /// On a grid, so that touching spheres do not overlap by rounding.
-    fn new(dice: &mut Dice, spheres: impl Fn(usize) -> (f64, f64)) -> Self {
-        let far = [0.0, 100.0, 1000.0][dice.below(3)];
-        let center: [f64; 3] = dice.point().map(|x| (x * far).round());
-        let mut axis = [0.0; 3];
-        axis[dice.below(3)] = [1.0, -1.0][dice.below(2)];
-        let mut g = Geometry::default();
-        for number in 0..INTERFACES / 2 {
-            let (along, radius) = spheres(number);
-            g.spheres.push(rounded(add(center, axis, along)), radius as f32, NO_MATERIAL);
+/// One primitive of a size, and a point to aim at: its middle at some place, or, now and then, a point of its surface at the
+/// origin, where coordinates are small and what they are computed from is not.
+fn alone(dice: &mut Dice, size: f64, away: [f64; 3]) -> (Geometry, [f64; 3]) {
+    let through_origin = dice.below(3) == 0;
+    let aside = dice.heading();
+    let center = |reach: f64| if through_origin { aside.map(|x| x * reach) } else { away };
+    let mut plane = Geometry::default();
+    let shape = match dice.below(4) {
+        0 if through_origin => Shape::Triangle(triangle_through_origin(dice, size)),
+        0 => Shape::Triangle(triangle(dice, away, size)),
+        1 => Shape::Sphere { center: rounded(center(size)), radius: size as f32 },
+        2 => {
+            let axis = if through_origin { across(dice, aside) } else { dice.heading() };
+            let from = center(0.5 * size);
+            let reach = size * dice.magnitude(-1.0, 1.0).abs();
+            let from = if through_origin { add(from, axis, -0.5 * reach) } else { from };
+            Shape::Cylinder {
+                from: rounded(from),
+                to: rounded(add(from, axis, reach)),
+                radius: (0.5 * size) as f32,
+            }
         }
-        g.groups = vec![Group { spheres: 0..g.spheres.len(), ..Group::default() }];
-        let ior = [1.5, 1.33, 2.4, 1.0001, 1.0 + f64::from(f32::EPSILON)][dice.below(5)];
-        Self { g, center, axis, ior }
-    }
-
-    /// Follows a path as far as it goes: each step tells which sphere is met, whether from inside, and has to be allowed.
-    fn follow<T: Tier>(
-        &self,
-        dice: &mut Dice,
-        tally: &mut Tally,
-        (start, spread): (f64, f64),
-        mut allows: impl FnMut(usize, bool, bool) -> bool,
-    ) {
-        let origin = add(self.center, self.axis, start);
-        let aside = across(dice, self.axis);
-        let target = add(self.center, aside, spread * dice.unit());
-        let direction = vector::<T::Real>(add(target, origin, -1.0)).normalize();
-        let mut ray = ray(vector(origin), direction);
-        tally.rays += 1;
-        for interface in 0..INTERFACES {
-            let Some(hit) = brute::closest::<T>(&self.g, &ray) else {
-                tally.hits += 1;
-                // Out of all glass is a way to go; out of a sphere without its surface is not.
-                if !allows(usize::MAX, false, false) {
-                    tally.add(Fault::SelfHit, || format!("{ray:?} gets out of {:?} unseen", self.g.spheres));
-                }
-                return;
-            };
-            let met = Surface::of::<T>(&self.g, &ray, &hit);
-            let inside = ray.direction.dot(met.normal) > T::Real::zero();
-            let eta = T::Real::from_f64(if inside { 1.0 / self.ior } else { self.ior });
-            let (refracted, total) = refract(ray.direction, met.normal, eta);
-            if !allows(hit.prim.row(), inside, total) {
-                tally.add(Fault::SelfHit, || {
-                    format!("{ray:?} at interface {interface} meets {:?} of {:?}", hit.prim, self.g.spheres)
-                });
-                return;
-            }
-            ray = met.leave(if total { reflect(ray.direction, met.normal) } else { refracted });
+        _ => {
+            let normal = if through_origin { across(dice, aside) } else { dice.heading() };
+            plane.planes.push(rounded(center(size)), rounded(normal), NO_MATERIAL);
+            return (plane, if through_origin { [0.0; 3] } else { away });
         }
-        tally.hits += 1;
-    }
+    };
+    let trial = Trial { shapes: vec![shape], rays: Vec::new(), claim: Claim::Leaving };
+    (trial.geometry(), if through_origin { [0.0; 3] } else { away })
 }
 
-fn chain<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
-    row::<T>(dice, tally, 1.0 / 64.0);
-}
-
-fn contact<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
-    row::<T>(dice, tally, 0.0);
-}
-
-/// Inside a sphere comes its own surface; outside comes the surface of another, or none.
-fn row<T: Tier>(dice: &mut Dice, tally: &mut Tally, gap: f64) {
-    let glass = Glass::new(dice, |number| ((2.0 + gap) * number as f64, 1.0));
-    for _ in 0..PATHS {
-        let (mut within, mut left) = (None, None);
-        glass.follow::<T>(dice, tally, (-5.0, 0.6), |row, inside, total| {
-            let allowed =
-                if within.is_some() { within == Some(row) && inside } else { left != Some(row) && !inside };
-            if !total {
-                (within, left) = if inside { (None, Some(row)) } else { (Some(row), None) };
-            }
-            allowed || (row == usize::MAX && within.is_none())
-        });
-    }
-}
-
-/// Inside so many spheres comes the surface of the innermost, or of the next.
-fn shells<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
-    let glass = Glass::new(dice, |number| (0.0, (10 - number) as f64));
-    for _ in 0..PATHS {
-        let mut depth = 0;
-        glass.follow::<T>(dice, tally, (-15.0, 0.8), |row, inside, total| {
-            let allowed =
-                if inside { row + 1 == depth } else { row == depth || (row == usize::MAX && depth == 0) };
-            if !total && row != usize::MAX {
-                depth = if inside { depth.saturating_sub(1) } else { depth + 1 };
-            }
-            allowed
-        });
-    }
+/// Two corners at random, and the third such that the origin is about in the middle.
+fn triangle_through_origin(dice: &mut Dice, size: f64) -> [[f32; 3]; 3] {
+    let [a, b, _] = triangle(dice, [0.0; 3], size);
+    [a, b, std::array::from_fn(|k| -(a[k] + b[k]))]
 }
 
 fn critical<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
