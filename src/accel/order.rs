@@ -42,7 +42,7 @@ impl Order {
     /// The last of `count` lanes; any lane if there are none.
     #[inline(always)]
     pub(super) fn last(self, count: u32) -> usize {
-        (self.0 >> (4 * count.wrapping_sub(1) & 31)) as usize & 7
+        (self.0 >> ((4 * count.wrapping_sub(1)) & 31)) as usize & 7
     }
 }
 
@@ -72,14 +72,14 @@ mod tests {
     fn each_octant_visits_slot_xor_octant_and_pushes_the_last_first() {
         for octant in 0..WIDTH as u32 {
             for chosen in 0..256u32 {
-                let expected = (0..8).rev().map(|i| i ^ octant).filter(|slot| chosen >> slot & 1 != 0);
+                let mut expected = (0..8).rev().map(|i| i ^ octant).filter(|slot| chosen >> slot & 1 != 0);
                 let order = far_first(octant, chosen);
                 let lanes = order.lanes().to_array();
                 assert!(
                     expected.clone().zip(lanes).all(|(slot, lane)| slot == lane & 7),
                     "{octant} {chosen:#b}"
                 );
-                let last = expected.last().map(|slot| slot as usize);
+                let last = expected.next_back().map(|slot| slot as usize);
                 assert!(
                     last.is_none_or(|last| last == order.last(chosen.count_ones())),
                     "{octant} {chosen:#b}"

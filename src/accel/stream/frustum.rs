@@ -10,12 +10,21 @@
 //! **Source:** Reshetov, Soupikov and Hurley, Multi-Level Ray Tracing Algorithm, 2005; Boulos, Wald and Benthin, Adaptive
 //! Ray Packet Reordering, 2008. Changed: eight boxes, or the slopes of eight packets, a test; edge functions with bounds.
 
+mod edges;
+mod slopes;
+mod view;
+
 use wide::f32x8;
 
 use crate::accel::instance::TreeRoot;
 use crate::accel::node::Node8;
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Lane, Mask, Real, Transform, Vec3, WIDTH, fused_cross, three};
+use crate::math::{Lane, Mask, Real, Transform, Vec3, WIDTH, three};
+use edges::Edges;
+use slopes::{Slopes, greatest, least, range, slopes};
+use view::View;
+
+pub(super) use view::Boxes;
 
 /// What rays of a stream have in common. It changes time, never results: rays that it is not true of go another way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,6 +36,14 @@ pub enum Apex {
 }
 
 impl Apex {
+    /// The point, and whether it is where rays go.
+    fn parts(self) -> ([f32; 3], bool) {
+        match self {
+            Self::Origin(point) => (point, false),
+            Self::Target(point) => (point, true),
+        }
+    }
+
     /// The same point, in the space of an instance.
     pub(super) fn in_space_of(self, to_world: &Transform) -> Self {
         let inside = |p: [f32; 3]| to_world.inverted().point(p.map(f64::from)).map(|x| x as f32);
@@ -36,9 +53,6 @@ impl Apex {
         }
     }
 }
-
-/// Largest slope: beyond it rays go too far apart, or along another axis.
-const MAX_SLOPE: f32 = 2.0;
 
 /// Roundoffs of the largest coordinate by which rays may pass by their apex.
 const APEX_ROUNDOFFS: f64 = 8.0;
@@ -52,15 +66,6 @@ const SIDE_ROUNDOFFS: f64 = 192.0;
 /// corners: a coordinate across is off by 6 roundoffs of the largest, by 14 for an apex that rays pass by, in the triangle
 /// test as here; an edge function is the sum of two products of two such; and twice that.
 const EDGE_ROUNDOFFS: f64 = 128.0;
-
-/// Slopes: of one pyramid in all lanes, or of a packet a lane.
-#[derive(Clone, Copy, Debug)]
-struct Slopes {
-    /// Least and greatest `x / z`.
-    a: [f32x8; 2],
-    /// Least and greatest `y / z`.
-    b: [f32x8; 2],
-}
 
 /// The pyramid around up to eight packets.
 #[derive(Clone, Debug)]
@@ -87,51 +92,72 @@ pub(super) struct Frustum {
     edge_pad: f32x8,
 }
 
-/// Which stored axes stand for `x`, `y` and `z`, seen from the apex.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct View {
-    axes: [usize; 3],
-    /// Rays go against the stored axis that stands for `z`.
-    backward: bool,
-    apex: [f32; 3],
+/// What the packets of a bundle have, by packet and over all.
+struct Gathered {
+    view: View,
+    is_target: bool,
+    /// Slopes `x / z`.
+    a: [f32x8; WIDTH],
+    /// Slopes `y / z`.
+    b: [f32x8; WIDTH],
+    /// Lengths of the directions along `z`.
+    along: [f32x8; WIDTH],
+    /// How far rays pass by the apex.
+    astray: f32x8,
+    /// Largest coordinates of origins.
+    far: Vec3<f32x8>,
 }
 
-/// Least, then greatest coordinates of eight boxes, as a view sees them.
-pub(super) type Boxes = [Vec3<f32x8>; 2];
+impl Gathered {
+    #[inline(always)]
+    fn new(view: View, is_target: bool) -> Self {
+        let zero = [f32x8::ZERO; WIDTH];
+        let along = [f32x8::ONE; WIDTH];
+        Self { view, is_target, a: zero, b: zero, along, astray: f32x8::ZERO, far: Vec3::zero() }
+    }
 
-impl View {
-    /// The view along the axis on which a direction goes farthest.
-    fn along(d: [f32; 3], apex: [f32; 3]) -> Self {
-        let size = d.map(f32::abs);
-        let z = if size[0] >= size[1] && size[0] >= size[2] {
-            0
-        } else if size[1] >= size[2] {
-            1
-        } else {
-            2
+    /// Adds packet `j`; `None` if its rays do not go along the view.
+    #[inline(always)]
+    fn add<T: Tier>(&mut self, j: usize, rays: &RayLanes<T::Wide>) -> Option<()> {
+        let (asked, apex) = (asked::<T>(rays), self.view.apex);
+        if asked & !rays.t_min.ge(T::Wide::zero()).bits() != 0 {
+            return None;
+        }
+        let seen = self.view.direction(from_apex::<T>(rays, apex, self.is_target));
+        (self.a[j], self.b[j], self.along[j]) = slopes(seen, asked)?;
+        let origin = narrow::<T>(rays.origin);
+        let by = match self.is_target {
+            true => passes_by::<T>(rays, &self.view, seen),
+            false => (origin - Vec3::splat(apex)).abs().max_component(),
         };
-        Self { axes: [(z + 1) % 3, (z + 2) % 3, z], backward: d[z] < 0.0, apex }
+        let by = Lane::select(by.ge(f32x8::ZERO), by, f32x8::splat(f32::INFINITY));
+        let asked = Mask::from_bits(asked);
+        self.astray = Lane::select(asked, Lane::max(self.astray, by), self.astray);
+        self.far = Vec3::select(asked, self.far.max(origin.abs()), self.far);
+        Some(())
     }
+
+    /// The first of `count` packets stands in for those that are not there.
     #[inline(always)]
-    fn direction(&self, d: Vec3<f32x8>) -> Vec3<f32x8> {
-        let d = [d.x, d.y, d.z];
-        let [x, y, z] = self.axes;
-        Vec3::new(d[x], d[y], if self.backward { -d[z] } else { d[z] })
-    }
-    #[inline(always)]
-    fn point(&self, p: impl Fn(usize) -> f32x8) -> Vec3<f32x8> {
-        let [x, y, z] = three(|i| p(self.axes[i]) - f32x8::splat(self.apex[self.axes[i]]));
-        Vec3::new(x, y, if self.backward { -z } else { z })
-    }
-    /// Boxes from their stored coordinates, by axis.
-    #[inline(always)]
-    pub(super) fn boxes(&self, lo: impl Fn(usize) -> f32x8, hi: impl Fn(usize) -> f32x8) -> Boxes {
-        let (a, b) = (self.point(lo), self.point(hi));
-        match self.backward {
-            true => [Vec3 { z: b.z, ..a }, Vec3 { z: a.z, ..b }],
-            false => [a, b],
+    fn fill_up(&mut self, count: usize) {
+        for j in count..WIDTH {
+            (self.a[j], self.b[j]) = (self.a[0], self.b[0]);
         }
     }
+
+    /// What roundoffs are relative to.
+    #[inline(always)]
+    fn size(&self, tree: TreeRoot) -> f32 {
+        let scale = greatest(tree.scale_for(self.far).max(self.far.max_component()));
+        self.view.apex.iter().fold(scale, |size, x| size.max(x.abs()))
+    }
+}
+
+/// The order of visits.
+fn octant(view: &View, all: &Slopes) -> usize {
+    let [x, y, z] = view.axes;
+    let backward = |s: [f32x8; 2]| usize::from(s[0].get(0) + s[1].get(0) < 0.0);
+    backward(all.a) << x | backward(all.b) << y | usize::from(view.backward) << z
 }
 
 impl Frustum {
@@ -139,44 +165,18 @@ impl Frustum {
     ///
     /// **Needs:** one to eight packets.
     pub(super) fn around<T: Tier>(packets: &[RayLanes<T::Wide>], apex: Apex, tree: TreeRoot) -> Option<Self> {
-        let (point, is_target) = match apex {
-            Apex::Origin(point) => (point, false),
-            Apex::Target(point) => (point, true),
-        };
         let first = packets.iter().find(|rays| asked::<T>(rays) != 0)?;
         let lead = asked::<T>(first).trailing_zeros() as usize;
+        let (point, is_target) = apex.parts();
         let view = View::along(from_apex::<T>(first, point, is_target).get(lead), point);
-        let mut a = [f32x8::ZERO; WIDTH];
-        let (mut b, mut along) = (a, [f32x8::ONE; WIDTH]);
-        let (mut astray, mut far) = (f32x8::ZERO, Vec3::zero());
+        let mut gathered = Gathered::new(view, is_target);
         for (j, rays) in packets.iter().enumerate() {
-            let asked = asked::<T>(rays);
-            if asked & !rays.t_min.ge(T::Wide::zero()).bits() != 0 {
-                return None;
-            }
-            let seen = view.direction(from_apex::<T>(rays, point, is_target));
-            (a[j], b[j], along[j]) = slopes(seen, asked)?;
-            let origin = narrow::<T>(rays.origin);
-            let by = match is_target {
-                true => passes_by::<T>(rays, &view, seen),
-                false => (origin - Vec3::splat(point)).abs().max_component(),
-            };
-            let by = Lane::select(by.ge(f32x8::ZERO), by, f32x8::splat(f32::INFINITY));
-            let asked = Mask::from_bits(asked);
-            astray = Lane::select(asked, Lane::max(astray, by), astray);
-            far = Vec3::select(asked, far.max(origin.abs()), far);
+            gathered.add::<T>(j, rays)?;
         }
-        for j in packets.len()..WIDTH {
-            (a[j], b[j]) = (a[0], b[0]);
-        }
-        let scale = greatest(tree.scale_for(far).max(far.max_component()));
-        let size = point.iter().fold(scale, |size, x| size.max(x.abs()));
-        let close = greatest(astray) <= size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32;
-        let packets = Slopes { a: range(a), b: range(b) };
-        if !close {
-            return None;
-        }
-        Self { view, is_target, along, ..Self::with(packets, 2.0 * size) }.oriented()
+        gathered.fill_up(packets.len());
+        let size = gathered.size(tree);
+        let close = greatest(gathered.astray) <= size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32;
+        if close { Self::new(&gathered, 2.0 * size) } else { None }
     }
 
     /// What the rays have in common.
@@ -185,43 +185,32 @@ impl Frustum {
         if self.is_target { Apex::Target(point) } else { Apex::Origin(point) }
     }
 
-    /// The pyramid of some slopes, in a scene of some size.
-    fn with(packets: Slopes, size: f32) -> Self {
+    /// The pyramid in a scene of some size; `None` where coordinates are so large that a bound overflows.
+    fn new(rays: &Gathered, size: f32) -> Option<Self> {
         let whole = |s: [f32x8; 2]| [f32x8::splat(least(s[0])), f32x8::splat(greatest(s[1]))];
         let pad = |roundoffs: f64| f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32);
+        let packets = Slopes { a: range(rays.a), b: range(rays.b) };
         let all = Slopes { a: whole(packets.a), b: whole(packets.b) };
         let half = f32x8::splat(0.5);
         let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
         let all_about_middle = all.about(middle);
-        let [a, b] = {
-            let greatest = |s: [f32x8; 2]| Lane::max(s[0].abs(), s[1].abs());
-            [greatest(all_about_middle.a), greatest(all_about_middle.b)]
-        };
-        Self {
-            view: View { axes: [0, 1, 2], backward: false, apex: [0.0; 3] },
-            is_target: false,
-            octant: 0,
+        let frustum = Self {
+            view: rays.view,
+            is_target: rays.is_target,
+            octant: octant(&rays.view, &all),
             all,
             packets,
             middle,
             all_about_middle,
             packets_about_middle: packets.about(middle),
-            spread: Lane::max(a, b),
-            along: [f32x8::ONE; WIDTH],
+            spread: all_about_middle.greatest(),
+            along: rays.along,
             packet_reach: [f32::NEG_INFINITY; WIDTH],
             reach: f32::NEG_INFINITY,
             side_pad: pad(SIDE_ROUNDOFFS),
             edge_pad: pad(EDGE_ROUNDOFFS),
-        }
-    }
-
-    /// With the order of visits; `None` where coordinates are so large that a bound overflows.
-    fn oriented(mut self) -> Option<Self> {
-        let [x, y, z] = self.view.axes;
-        let backward = |s: [f32x8; 2]| usize::from(s[0].get(0) + s[1].get(0) < 0.0);
-        self.octant =
-            backward(self.all.a) << x | backward(self.all.b) << y | usize::from(self.view.backward) << z;
-        self.edge_pad.get(0).is_finite().then_some(self)
+        };
+        frustum.edge_pad.get(0).is_finite().then_some(frustum)
     }
 
     /// Takes note that the rays of packet `j` need nothing at or beyond `limit`; [`Frustum::update_reach`] must follow.
@@ -308,59 +297,6 @@ impl Frustum {
     }
 }
 
-impl Slopes {
-    fn about(&self, [a, b]: [f32x8; 2]) -> Self {
-        Self { a: [self.a[0] - a, self.a[1] - a], b: [self.b[0] - b, self.b[1] - b] }
-    }
-}
-
-/// Edge functions of eight triangles: the ray of slopes `a` and `b` about the middle passes edge `i` on the side that the
-/// sign of `normal[i] . (a, b, 1)` tells, if it is farther from zero than the pad.
-///
-/// Coordinates are sheared by the middle slopes, so that they are small for triangles that rays may meet, and so are
-/// the errors of their products.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Edges {
-    normal: [Vec3<f32x8>; 3],
-    pad: f32x8,
-    /// Least `z`.
-    nearest: f32x8,
-}
-
-impl Edges {
-    #[inline(always)]
-    fn of(corners: [Vec3<f32x8>; 3], middle: [f32x8; 2], spread: f32x8, pad: f32x8) -> Self {
-        let shear = |p: Vec3<f32x8>| Vec3::new(p.x - middle[0] * p.z, p.y - middle[1] * p.z, p.z);
-        let [a, b, c] = three(|v| shear(corners[v]));
-        let size = a.abs().max(b.abs()).max(c.abs());
-        let across = Lane::max(size.x, size.y) + spread * size.z;
-        Self {
-            normal: [fused_cross(b, c), fused_cross(c, a), fused_cross(a, b)],
-            pad: pad * across,
-            nearest: a.z.min(b.z).min(c.z),
-        }
-    }
-
-    /// Lanes where not all rays pass on the outer side of one edge.
-    #[inline(always)]
-    fn met(&self, slopes: &Slopes) -> u32 {
-        let ([n0, n1, n2], pad) = (self.normal, self.pad);
-        let range = |n: Vec3<f32x8>| {
-            let (a0, a1) = (slopes.a[0] * n.x, slopes.a[1] * n.x);
-            let (b0, b1) = (slopes.b[0] * n.y, slopes.b[1] * n.y);
-            (n.z + a0.min(a1) + b0.min(b1), n.z + a0.max(a1) + b0.max(b1))
-        };
-        let (r0, r1, r2, whole) = (range(n0), range(n1), range(n2), range(n0 + n1 + n2));
-        // Seen by all from the front, or by all from the back: only then does a sign tell the side.
-        let front = whole.0.gt(pad * f32x8::splat(4.0));
-        let back = whole.1.lt(pad * f32x8::splat(-4.0));
-        let least_of_greatest = r0.1.min(r1.1).min(r2.1);
-        let greatest_of_least = r0.0.max(r1.0).max(r2.0);
-        let missed = (front & least_of_greatest.lt(-pad)) | (back & greatest_of_least.gt(pad));
-        (!missed).bits()
-    }
-}
-
 /// Lanes that ask anything.
 #[inline(always)]
 fn asked<T: Tier>(rays: &RayLanes<T::Wide>) -> u32 {
@@ -386,51 +322,7 @@ fn passes_by<T: Tier>(rays: &RayLanes<T::Wide>, view: &View, seen: Vec3<f32x8>) 
     Lane::select(ends, by, f32x8::splat(f32::INFINITY))
 }
 
-/// Slopes of directions, and their lengths along `z`. Lanes that are not asked take the slopes of one that is; without
-/// any, zero.
-#[inline(always)]
-fn slopes(d: Vec3<f32x8>, asked: u32) -> Option<(f32x8, f32x8, f32x8)> {
-    let most = d.z * f32x8::splat(MAX_SLOPE);
-    let fits = d.z.gt(f32x8::ZERO) & d.x.abs().le(most) & d.y.abs().le(most);
-    if asked & !fits.bits() != 0 {
-        return None;
-    }
-    let scale = f32x8::ONE / d.z;
-    let (a, b) = (d.x * scale, d.y * scale);
-    if asked == 0xff {
-        return Some((a, b, d.z));
-    }
-    let mask = Mask::from_bits(asked);
-    let stand_in = |v: f32x8| if asked == 0 { 0.0 } else { v.get(asked.trailing_zeros() as usize) };
-    let fill = |v: f32x8| Lane::select(mask, v, f32x8::splat(stand_in(v)));
-    Some((fill(a), fill(b), Lane::select(mask, d.z, f32x8::ONE)))
-}
-
 #[inline(always)]
 fn narrow<T: Tier>(v: Vec3<T::Wide>) -> Vec3<f32x8> {
     Vec3::new(T::nearest_f32(v.x), T::nearest_f32(v.y), T::nearest_f32(v.z))
-}
-
-/// Least and greatest of the lanes of row `j`, in lane `j`.
-#[inline(always)]
-fn range(rows: [f32x8; WIDTH]) -> [f32x8; 2] {
-    let c = f32x8::transpose(rows);
-    [fold(c, Lane::min), fold(c, Lane::max)]
-}
-
-#[inline(always)]
-fn greatest(v: f32x8) -> f32 {
-    fold(v.to_array(), |a, b| if a > b { a } else { b })
-}
-
-#[inline(always)]
-fn least(v: f32x8) -> f32 {
-    fold(v.to_array(), |a, b| if a < b { a } else { b })
-}
-
-/// Three rounds, not a chain of seven.
-#[inline(always)]
-fn fold<T: Copy>(v: [T; WIDTH], f: impl Fn(T, T) -> T) -> T {
-    let [a, b, c, d] = [f(v[0], v[4]), f(v[1], v[5]), f(v[2], v[6]), f(v[3], v[7])];
-    f(f(a, c), f(b, d))
 }

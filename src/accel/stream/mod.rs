@@ -208,20 +208,20 @@ impl<'a, T: Tier> Bundles<'a, T> {
         alone: &mut Alone,
     ) {
         let end = rays.len.min(first + BUNDLE * WIDTH);
-        let packets = (first..end).step_by(WIDTH).enumerate();
+        let packets = (first..end).step_by(WIDTH);
         let tried = apex.filter(|_| self.pace.tries());
         if tried.is_none() && !self.traversal.may_go_together(hint, end - first) {
-            packets.for_each(|(_, at)| alone.push(at));
+            packets.for_each(|at| alone.push(at));
             return;
         }
-        for (j, at) in packets.clone() {
+        for (j, at) in packets.clone().enumerate() {
             self.rays[j] = rays.load::<T::Wide>(at);
             queries[j] = A::ask(&self.rays[j]);
             ask_planes(self.accel, &self.rays[j], &mut queries[j]);
         }
         let queries = &mut queries[..packets.len()];
         let whole = tried.is_some_and(|apex| self.trace_bundle(apex, queries));
-        for (j, at) in packets {
+        for (j, at) in packets.enumerate() {
             if whole || self.trace_packet(j, hint, &mut queries[j]) {
                 answers.store(at, &queries[j]);
             } else {

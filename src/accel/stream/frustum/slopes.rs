@@ -1,0 +1,74 @@
+//! Slopes of rays, and how far apart they go.
+
+use wide::f32x8;
+
+use crate::math::{Lane, Mask, Vec3, WIDTH};
+
+/// Largest slope: beyond it rays go too far apart, or along another axis.
+const MAX_SLOPE: f32 = 2.0;
+
+/// Slopes: of one pyramid in all lanes, or of a packet a lane.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Slopes {
+    /// Least and greatest `x / z`.
+    pub(super) a: [f32x8; 2],
+    /// Least and greatest `y / z`.
+    pub(super) b: [f32x8; 2],
+}
+
+impl Slopes {
+    /// The largest, either way.
+    pub(super) fn greatest(&self) -> f32x8 {
+        let either = |s: [f32x8; 2]| Lane::max(s[0].abs(), s[1].abs());
+        Lane::max(either(self.a), either(self.b))
+    }
+    /// Relative to those of the middle.
+    #[inline(always)]
+    pub(super) fn about(&self, [a, b]: [f32x8; 2]) -> Self {
+        Self { a: [self.a[0] - a, self.a[1] - a], b: [self.b[0] - b, self.b[1] - b] }
+    }
+}
+
+/// Slopes of directions, and their lengths along `z`. Lanes that are not asked take the slopes of one that is; without
+/// any, zero.
+#[inline(always)]
+pub(super) fn slopes(d: Vec3<f32x8>, asked: u32) -> Option<(f32x8, f32x8, f32x8)> {
+    let most = d.z * f32x8::splat(MAX_SLOPE);
+    let fits = d.z.gt(f32x8::ZERO) & d.x.abs().le(most) & d.y.abs().le(most);
+    if asked & !fits.bits() != 0 {
+        return None;
+    }
+    let scale = f32x8::ONE / d.z;
+    let (a, b) = (d.x * scale, d.y * scale);
+    if asked == 0xff {
+        return Some((a, b, d.z));
+    }
+    let mask = Mask::from_bits(asked);
+    let stand_in = |v: f32x8| if asked == 0 { 0.0 } else { v.get(asked.trailing_zeros() as usize) };
+    let fill = |v: f32x8| Lane::select(mask, v, f32x8::splat(stand_in(v)));
+    Some((fill(a), fill(b), Lane::select(mask, d.z, f32x8::ONE)))
+}
+
+/// Least and greatest of the lanes of row `j`, in lane `j`.
+#[inline(always)]
+pub(super) fn range(rows: [f32x8; WIDTH]) -> [f32x8; 2] {
+    let c = f32x8::transpose(rows);
+    [fold(c, Lane::min), fold(c, Lane::max)]
+}
+
+#[inline(always)]
+pub(super) fn greatest(v: f32x8) -> f32 {
+    fold(v.to_array(), |a, b| if a > b { a } else { b })
+}
+
+#[inline(always)]
+pub(super) fn least(v: f32x8) -> f32 {
+    fold(v.to_array(), |a, b| if a < b { a } else { b })
+}
+
+/// Three rounds, not a chain of seven.
+#[inline(always)]
+fn fold<T: Copy>(v: [T; WIDTH], f: impl Fn(T, T) -> T) -> T {
+    let [a, b, c, d] = [f(v[0], v[4]), f(v[1], v[5]), f(v[2], v[6]), f(v[3], v[7])];
+    f(f(a, c), f(b, d))
+}
