@@ -164,6 +164,7 @@ impl Frustum {
     /// The pyramid around packets; `None` where they have no axis in common or go too far apart.
     ///
     /// **Needs:** one to eight packets.
+    #[inline(always)]
     pub(super) fn around<T: Tier>(packets: &[RayLanes<T::Wide>], apex: Apex, tree: TreeRoot) -> Option<Self> {
         let first = packets.iter().find(|rays| asked::<T>(rays) != 0)?;
         let lead = asked::<T>(first).trailing_zeros() as usize;
@@ -186,15 +187,20 @@ impl Frustum {
     }
 
     /// The pyramid in a scene of some size; `None` where coordinates are so large that a bound overflows.
+    #[inline(always)]
     fn new(rays: &Gathered, size: f32) -> Option<Self> {
         let whole = |s: [f32x8; 2]| [f32x8::splat(least(s[0])), f32x8::splat(greatest(s[1]))];
         let pad = |roundoffs: f64| f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32);
+        let edge_pad = pad(EDGE_ROUNDOFFS);
+        if !edge_pad.get(0).is_finite() {
+            return None;
+        }
         let packets = Slopes { a: range(rays.a), b: range(rays.b) };
         let all = Slopes { a: whole(packets.a), b: whole(packets.b) };
         let half = f32x8::splat(0.5);
         let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
         let all_about_middle = all.about(middle);
-        let frustum = Self {
+        Some(Self {
             view: rays.view,
             is_target: rays.is_target,
             octant: octant(&rays.view, &all),
@@ -208,9 +214,8 @@ impl Frustum {
             packet_reach: [f32::NEG_INFINITY; WIDTH],
             reach: f32::NEG_INFINITY,
             side_pad: pad(SIDE_ROUNDOFFS),
-            edge_pad: pad(EDGE_ROUNDOFFS),
-        };
-        frustum.edge_pad.get(0).is_finite().then_some(frustum)
+            edge_pad,
+        })
     }
 
     /// Takes note that the rays of packet `j` need nothing at or beyond `limit`; [`Frustum::update_reach`] must follow.
