@@ -45,12 +45,10 @@ pub(super) fn open_changed(
     let sets: Vec<String> = assignments.iter().map(|(key, value)| format!("{key}={value}")).collect();
     let workers = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let workers = workers.map_err(|error| CliError::of(Exit::Failed, error))?;
-    let scene = workers.install(|| {
-        let meshes = KeptMeshes::keeping();
-        let mut description = describe(source, &sets, &meshes)?;
-        change(&mut description);
-        compile(&description, &meshes)
-    })?;
+    let meshes = KeptMeshes::keeping();
+    let mut description = workers.install(|| describe(source, &sets, &meshes))?;
+    change(&mut description);
+    let scene = workers.install(|| compile(&description, &meshes))?;
     Ok(Opened { name: source.to_string(), scene })
 }
 
