@@ -52,6 +52,24 @@ fn files_that_are_no_scene() {
 }
 
 #[test]
+fn arrays_with_too_many_elements() {
+    let expected = "invalid length 4, expected an array of length";
+    expect(
+        &[("a.toml", b"[camera]\nposition = [0, 0, 5, 7]\nlook_at = [0, 0, 0]\n")],
+        3,
+        &["a.toml:2", expected],
+    );
+    scene("[render]\nsize = [4, 3, 2, 1]", &["a.toml:5", expected]);
+    let folder = TempDir::new().unwrap();
+    std::fs::write(folder.path().join("a.toml"), CAMERA).unwrap();
+    let (code, text) = render_in(folder.path(), &["a.toml", "--set", "camera.up=[0, 1, 0, 0]"]);
+    assert!(
+        code == 2 && text.contains("--set camera.up=[0, 1, 0, 0]") && text.contains(expected),
+        "{code}: {text}"
+    );
+}
+
+#[test]
 fn numbers_that_are_none() {
     scene("[[sphere]]\ncenter = [nan, 0, 0]\nradius = 1", &["a.toml:5", "center"]);
     scene("[[sphere]]\ncenter = [0, inf, 0]\nradius = 1", &["a.toml:5", "center"]);

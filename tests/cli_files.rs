@@ -114,3 +114,24 @@ fn nobody_listening_to_errors_is_no_panic() {
         .unwrap();
     assert_eq!(status.code(), Some(1));
 }
+
+/// A mesh file that can be read once: a pipe. Whoever opens it again waits for ever.
+#[cfg(unix)]
+#[test]
+fn a_mesh_is_read_once_however_often_it_is_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let camera = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n";
+    let group = "[[group]]\nname = 'g'\n[[group.mesh]]\npath = 'a.obj'\n[[instance]]\nof = 'g'\n";
+    let twice = "[[mesh]]\npath = 'a.obj'\ntransform = [{ scale = 2 }]\n[[mesh]]\npath = 'a.obj'\n";
+    fs::write(folder.path().join("a.toml"), format!("{camera}{group}{twice}")).unwrap();
+    let mesh = folder.path().join("a.obj");
+    assert!(std::process::Command::new("mkfifo").arg(&mesh).status().unwrap().success());
+    for (source, shown) in [("a.toml", "a.png"), ("a.obj", "b.png")] {
+        let mesh = mesh.clone();
+        std::thread::spawn(move || fs::write(mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"));
+        let mut render =
+            octray(&["render", source, "-o", shown, "--size", "8x8", "--spp", "1", "--progress", "none"]);
+        render.current_dir(folder.path()).timeout(std::time::Duration::from_secs(60)).assert().success();
+        assert!(folder.path().join(shown).exists());
+    }
+}

@@ -9,7 +9,7 @@ use serde::de::{Deserializer, Error};
 use toml::Value;
 
 use super::BatchError;
-use crate::describe::{BuildQuality, Tier};
+use crate::describe::{BuildQuality, Tier, exact};
 use crate::film::Aov;
 
 /// A job, as written. Field names are the keys of the file.
@@ -83,6 +83,7 @@ pub enum Sweep {
     /// First and end, which is left out, and perhaps a step: as Python's `range`.
     Range(#[schemars(with = "Vec<f64>", length(min = 2, max = 3))] Vec<Value>),
     /// First, last and how many, evenly spread.
+    #[serde(deserialize_with = "exact::read")]
     Linspace([f64; 3]),
 }
 

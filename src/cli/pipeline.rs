@@ -8,7 +8,7 @@ use std::path::Path;
 use super::error::{CliError, Exit};
 use super::source::SceneSource;
 use crate::describe::{self, DescribeError, Origin, SceneDescription};
-use crate::load::load_mesh;
+use crate::load::{KeptMeshes, load_mesh};
 use crate::scene::Scene;
 
 pub(super) use crate::wavefront::{
@@ -43,20 +43,25 @@ pub(super) fn open_changed(
     change: impl FnOnce(&mut SceneDescription),
 ) -> Result<Opened, CliError> {
     let sets: Vec<String> = assignments.iter().map(|(key, value)| format!("{key}={value}")).collect();
-    let mut description = describe(source, &sets)?;
-    change(&mut description);
     let workers = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     let workers = workers.map_err(|error| CliError::of(Exit::Failed, error))?;
-    let scene = workers.install(|| Scene::compile(&description));
-    let scene = scene.map_err(|error| CliError::of(Exit::Scene, error))?;
+    let meshes = KeptMeshes::keeping();
+    let mut description = workers.install(|| describe(source, &sets, &meshes))?;
+    change(&mut description);
+    let scene = workers.install(|| compile(&description, &meshes))?;
     Ok(Opened { name: source.to_string(), scene })
+}
+
+fn compile(description: &SceneDescription, meshes: &KeptMeshes) -> Result<Scene, CliError> {
+    Scene::compile_with(description, meshes).map_err(|error| CliError::of(Exit::Scene, error))
 }
 
 /// Compiles a scene in the current rayon pool for a picture of a size, a mesh alone: without floor, materials and normals.
 ///
 /// **Errors**: as [`open`].
 pub(super) fn open_bare(source: &SceneSource, size: [u32; 2]) -> Result<Scene, CliError> {
-    let mut description = describe(source, &[])?;
+    let meshes = KeptMeshes::keeping();
+    let mut description = describe(source, &[], &meshes)?;
     description.render.size = size;
     if is_mesh(source) {
         let floor = description.quad.pop();
@@ -66,10 +71,14 @@ pub(super) fn open_bare(source: &SceneSource, size: [u32; 2]) -> Result<Scene, C
             mesh.normals = false;
         }
     }
-    Scene::compile(&description).map_err(|error| CliError::of(Exit::Scene, error))
+    compile(&description, &meshes)
 }
 
-fn describe(source: &SceneSource, sets: &[String]) -> Result<SceneDescription, CliError> {
+fn describe(
+    source: &SceneSource,
+    sets: &[String],
+    meshes: &KeptMeshes,
+) -> Result<SceneDescription, CliError> {
     match source {
         SceneSource::Stdin => {
             let mut text = String::new();
@@ -78,7 +87,7 @@ fn describe(source: &SceneSource, sets: &[String]) -> Result<SceneDescription, C
             describe::parse_with(&text, "standard input", sets).map_err(refused)
         }
         SceneSource::File(path) if is_mesh(source) => {
-            framed(path)?.amended(&source.to_string(), sets).map_err(refused)
+            framed(path, meshes)?.amended(&source.to_string(), sets).map_err(refused)
         }
         SceneSource::File(path) => describe::read_with(path, sets).map_err(refused),
         SceneSource::BuiltIn(name) => builtin(name)?.amended(name, sets).map_err(refused),
@@ -92,14 +101,16 @@ pub(super) fn is_mesh(source: &SceneSource) -> bool {
     ending.is_some_and(|e| MESHES.contains(&e.as_str()))
 }
 
-/// A camera, lights and a floor around a bare mesh.
-fn framed(path: &Path) -> Result<SceneDescription, CliError> {
+/// A camera, lights and a floor around a bare mesh, which is kept to be compiled.
+fn framed(path: &Path, meshes: &KeptMeshes) -> Result<SceneDescription, CliError> {
     let mesh = load_mesh(path).map_err(|error| CliError::of(Exit::Scene, error))?;
     let bounds = mesh.bounds().ok_or_else(|| {
         CliError::new(Exit::Scene, format!("{}: has no triangle with an area", path.display()))
     })?;
     let path = std::path::absolute(path).unwrap_or(path.to_owned());
-    Ok(describe::framed_mesh(&path, bounds.map(|corner| corner.map(f64::from))))
+    let scene = describe::framed_mesh(&path, bounds.map(|corner| corner.map(f64::from)));
+    meshes.keep(&scene.mesh[0], &scene.folder, mesh);
+    Ok(scene)
 }
 
 fn builtin(name: &str) -> Result<SceneDescription, CliError> {

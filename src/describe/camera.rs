@@ -1,6 +1,6 @@
 //! Where the picture is taken from.
 
-use super::Transform;
+use super::{Transform, exact};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -12,11 +12,13 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Camera {
     /// Where the camera stands, in world units.
+    #[serde(deserialize_with = "exact::read")]
     pub position: [f64; 3],
     /// The point in the centre of the picture.
+    #[serde(deserialize_with = "exact::read")]
     pub look_at: [f64; 3],
     /// The direction towards the top of the picture; any length. Default `[0, 1, 0]`.
-    #[serde(default = "default_up")]
+    #[serde(default = "default_up", deserialize_with = "exact::read")]
     pub up: [f64; 3],
     /// `perspective` (default) or `orthographic`.
     #[serde(default)]

@@ -1,6 +1,6 @@
 //! Lights, one table a kind.
 
-use super::Rgb;
+use super::{Rgb, exact};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -21,6 +21,7 @@ pub struct Lights {
 #[serde(deny_unknown_fields)]
 pub struct PointLight {
     /// Where it stands.
+    #[serde(deserialize_with = "exact::read")]
     pub position: [f64; 3],
     /// Its colour. Default white.
     #[serde(default = "white")]
@@ -34,6 +35,7 @@ pub struct PointLight {
 #[serde(deny_unknown_fields)]
 pub struct DirectionalLight {
     /// The way the light travels (from the sun to the ground); any length.
+    #[serde(deserialize_with = "exact::read")]
     pub direction: [f64; 3],
     /// Its colour. Default white.
     #[serde(default = "white")]
@@ -47,8 +49,10 @@ pub struct DirectionalLight {
 #[serde(deny_unknown_fields)]
 pub struct SpotLight {
     /// Where it stands.
+    #[serde(deserialize_with = "exact::read")]
     pub position: [f64; 3],
     /// A point on the axis of the cone.
+    #[serde(deserialize_with = "exact::read")]
     pub look_at: [f64; 3],
     /// Half angle of the cone, where the light ends, in degrees: above 0, at most 180.
     pub cone_deg: f64,

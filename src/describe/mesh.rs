@@ -1,7 +1,7 @@
 //! Meshes and instances.
 
-use super::Transform;
 use super::shape::{is_true, yes};
+use super::{Transform, exact};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ pub struct Mesh {
     #[serde(default)]
     pub path: Option<PathBuf>,
     /// Vertex positions; needs `faces`.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "exact::read")]
     pub vertices: Option<Vec<[f64; 3]>>,
     /// Polygons of three or more vertex numbers, counted from 0.
     #[serde(default)]

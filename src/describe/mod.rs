@@ -31,6 +31,7 @@ mod builtin;
 mod camera;
 mod check;
 mod error;
+pub(crate) mod exact;
 mod framed;
 mod light;
 mod locate;

@@ -1,5 +1,6 @@
 //! How the picture is computed: size, samples, filter, tone.
 
+use super::exact;
 use crate::film::Aov;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -9,6 +10,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields, default)]
 pub struct Render {
     /// Width and height in pixels. Default `[640, 480]`; at most 2^28 pixels in all.
+    #[serde(deserialize_with = "exact::read")]
     pub size: [u32; 2],
     /// Samples a pixel, at least 1. Default 16.
     pub spp: u32,

@@ -2,7 +2,7 @@
 //!
 //! `material` names a `[[material]]`; without it the object is a plain grey diffuse one.
 
-use super::Transform;
+use super::{Transform, exact};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 #[serde(deny_unknown_fields)]
 pub struct Sphere {
     /// Its centre.
+    #[serde(deserialize_with = "exact::read")]
     pub center: [f64; 3],
     /// Its radius, above 0.
     pub radius: f64,
@@ -27,13 +28,13 @@ pub struct Sphere {
 #[serde(deny_unknown_fields)]
 pub struct Cylinder {
     /// Centre of one end.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "exact::read")]
     pub from: Option<[f64; 3]>,
     /// Centre of the other end.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "exact::read")]
     pub to: Option<[f64; 3]>,
     /// Centre of a cylinder along y.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "exact::read")]
     pub center: Option<[f64; 3]>,
     /// Half the height of a cylinder along y, above 0.
     #[serde(default)]
@@ -56,6 +57,7 @@ pub struct Cylinder {
 #[serde(deny_unknown_fields)]
 pub struct Triangle {
     /// Its corners; counter-clockwise seen from the front.
+    #[serde(deserialize_with = "exact::read")]
     pub vertices: [[f64; 3]; 3],
     /// Name of its material.
     #[serde(default)]
@@ -70,10 +72,13 @@ pub struct Triangle {
 #[serde(deny_unknown_fields)]
 pub struct Quad {
     /// One corner.
+    #[serde(deserialize_with = "exact::read")]
     pub origin: [f64; 3],
     /// From that corner to the next.
+    #[serde(deserialize_with = "exact::read")]
     pub edge_u: [f64; 3],
     /// From that corner to the last.
+    #[serde(deserialize_with = "exact::read")]
     pub edge_v: [f64; 3],
     /// Name of its material.
     #[serde(default)]
@@ -88,8 +93,10 @@ pub struct Quad {
 #[serde(deny_unknown_fields)]
 pub struct Plane {
     /// Any point on it.
+    #[serde(deserialize_with = "exact::read")]
     pub point: [f64; 3],
     /// The direction it faces; any length.
+    #[serde(deserialize_with = "exact::read")]
     pub normal: [f64; 3],
     /// Name of its material.
     #[serde(default)]

@@ -1,6 +1,6 @@
 //! Transforms as a list of steps, and the matrix they make.
 
-use super::Factors;
+use super::{Factors, exact};
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -14,12 +14,14 @@ pub struct Transform(pub Vec<Step>);
 #[serde(rename_all = "snake_case")]
 pub enum Step {
     /// Moves by a vector.
+    #[serde(deserialize_with = "exact::read")]
     Translate([f64; 3]),
     /// Turns around an axis through the origin.
     RotateDeg(Rotation),
     /// Scales from the origin, by one factor or one an axis; none may be 0.
     Scale(Factors),
     /// Three rows of four numbers (the last column moves), and optionally the row `[0, 0, 0, 1]`.
+    #[serde(deserialize_with = "exact::read")]
     Matrix(Vec<[f64; 4]>),
 }
 
@@ -28,6 +30,7 @@ pub enum Step {
 #[serde(deny_unknown_fields)]
 pub struct Rotation {
     /// The axis; any length.
+    #[serde(deserialize_with = "exact::read")]
     pub axis: [f64; 3],
     /// The angle in degrees.
     pub angle: f64,

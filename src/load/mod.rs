@@ -18,6 +18,8 @@ mod mtl;
 mod normals;
 mod obj;
 mod obj_text;
+mod obj_vertices;
+mod obj_words;
 mod ply;
 mod polygon;
 mod stl;
@@ -124,5 +126,7 @@ impl Mesh {
 
 #[cfg(test)]
 mod garbage;
+#[cfg(test)]
+mod obj_oracle;
 #[cfg(test)]
 mod tests;

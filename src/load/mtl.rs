@@ -17,22 +17,15 @@
 use super::LoadError;
 use super::obj_text::ObjText;
 use crate::describe::{Material, MaterialKind, Rgb};
+use std::collections::HashSet;
 use std::path::{Path, PathBuf};
 
-/// The materials that one `mtllib` line brings.
-pub(super) struct Library {
-    /// As the OBJ parser wants them, to resolve `usemtl`.
-    pub(super) parsed: tobj::MTLLoadResult,
-    /// As the scene wants them, in the same order.
-    pub(super) materials: Vec<Material>,
-}
-
-/// The library of each `mtllib` line, after checking that every `usemtl` can be resolved.
-pub(super) fn load_all(obj: &Path, text: &ObjText) -> Result<Vec<Library>, LoadError> {
+/// The materials of each `mtllib` line, after checking that every `usemtl` can be resolved.
+pub(super) fn load_all(obj: &Path, text: &ObjText) -> Result<Vec<Vec<Material>>, LoadError> {
     let folder = obj.parent().unwrap_or(Path::new(""));
     let mut libraries = Vec::new();
-    for (line, names) in &text.libraries {
-        libraries.push(load(obj, *line, &files(folder, names))?);
+    for (line, names) in text.libraries() {
+        libraries.push(load(obj, line, &files(folder, names))?);
     }
     check_used(obj, text, &libraries)?;
     Ok(libraries)
@@ -43,11 +36,11 @@ pub(super) fn load_all(obj: &Path, text: &ObjText) -> Result<Vec<Library>, LoadE
 /// **Errors:** as loading the mesh.
 pub fn material_files(obj: &Path) -> Result<Vec<PathBuf>, LoadError> {
     let bytes = std::fs::read(obj).map_err(|source| LoadError::Read { path: obj.to_owned(), source })?;
-    let text = super::obj_text::prepare(&String::from_utf8_lossy(&bytes))
-        .map_err(|(line, message)| malformed(obj, Some(line), message))?;
+    let text =
+        super::obj_text::read(&bytes).map_err(|(line, message)| malformed(obj, Some(line), message))?;
     let folder = obj.parent().unwrap_or(Path::new(""));
-    let named = text.libraries.iter().flat_map(|(_, names)| files(folder, names));
-    let textures = load_all(obj, &text)?.into_iter().flat_map(|library| library.materials);
+    let named = text.libraries().flat_map(|(_, names)| files(folder, names));
+    let textures = load_all(obj, &text)?.into_iter().flatten();
     Ok(named.chain(textures.filter_map(|material| material.texture)).collect())
 }
 
@@ -66,27 +59,26 @@ fn unified(name: &str) -> String {
 }
 
 /// A material used must exist, once the file names any library at all.
-fn check_used(obj: &Path, text: &ObjText, libraries: &[Library]) -> Result<(), LoadError> {
-    if text.libraries.is_empty() {
+fn check_used(obj: &Path, text: &ObjText, libraries: &[Vec<Material>]) -> Result<(), LoadError> {
+    if libraries.is_empty() {
         return Ok(());
     }
-    let known = |name: &str| libraries.iter().any(|l| l.materials.iter().any(|m| m.name == name));
-    match text.materials.iter().find(|(_, name)| !known(name)) {
+    let known: HashSet<&str> = libraries.iter().flatten().map(|m| m.name.as_str()).collect();
+    match text.materials().find(|(_, name)| !known.contains(name)) {
         None => Ok(()),
         Some((line, name)) => {
-            let mtl: Vec<&str> = text.libraries.iter().map(|(_, names)| names.as_str()).collect();
+            let mtl: Vec<&str> = text.libraries().map(|(_, names)| names).collect();
             Err(LoadError::MissingMaterial {
                 path: obj.to_owned(),
-                line: *line,
-                name: name.clone(),
+                line,
+                name: name.to_owned(),
                 mtl: mtl.join(", "),
             })
         }
     }
 }
 
-fn load(obj: &Path, line: usize, files: &[PathBuf]) -> Result<Library, LoadError> {
-    let mut text = String::new();
+fn load(obj: &Path, line: usize, files: &[PathBuf]) -> Result<Vec<Material>, LoadError> {
     let mut materials = Vec::new();
     for mtl in files {
         let bytes = std::fs::read(mtl).map_err(|source| LoadError::MissingMaterialFile {
@@ -96,13 +88,11 @@ fn load(obj: &Path, line: usize, files: &[PathBuf]) -> Result<Library, LoadError
             source,
         })?;
         let prepared = prepare(&String::from_utf8_lossy(&bytes), mtl)?;
-        let parsed = parse(&prepared, mtl)?;
-        for material in &parsed {
+        for material in &parse(&prepared, mtl)? {
             materials.push(convert(material, mtl)?);
         }
-        text.push_str(&prepared);
     }
-    Ok(Library { parsed: tobj::load_mtl_buf(&mut text.as_bytes()), materials })
+    Ok(materials)
 }
 
 /// Parses line by line, so that an error has its line.

@@ -1,130 +1,177 @@
-//! OBJ through `tobj`, with polygons cut by us and every complaint with its line.
+//! OBJ: groups and materials as runs of faces, the corners of each run as vertices.
 
 use super::normals::cross_product;
-use super::obj_text::{ObjText, prepare};
+use super::obj_text::{MarkKind, NONE, ObjText, read};
+use super::obj_vertices::Vertices;
 use super::polygon::triangulate;
 use super::{LoadError, LoadOptions, Mesh, mtl};
 use crate::describe::{Material, MaterialKind};
-use std::cell::Cell;
-use std::io::{BufRead, Read};
+use std::borrow::Cow;
+use std::collections::HashMap;
+use std::ops::Range;
 use std::path::Path;
 
 /// The mesh in an OBJ file, with the materials of its MTL files unless `options` leave them out.
 pub(super) fn parse(path: &Path, bytes: &[u8], options: LoadOptions) -> Result<Mesh, LoadError> {
-    let malformed = |line, message| LoadError::Malformed { path: path.to_owned(), line: Some(line), message };
-    let source = String::from_utf8_lossy(bytes);
-    let prepared = prepare(&source).map_err(|(line, message)| malformed(line, message))?;
-    let libraries = if options.materials { mtl::load_all(path, &prepared)? } else { Vec::new() };
-    let mut reader = LineCounter { rest: prepared.text.as_bytes(), line: 1 };
-    let (models, _) = read(&mut reader, &libraries)
-        .map_err(|error| malformed(reader.line.saturating_sub(1).max(1), error.to_string()))?;
+    let malformed =
+        |(line, message)| LoadError::Malformed { path: path.to_owned(), line: Some(line), message };
+    let text = read(bytes).map_err(malformed)?;
+    let libraries = if options.materials { mtl::load_all(path, &text)? } else { Vec::new() };
     let mut mesh = Mesh::default();
-    mesh.report.degenerate = prepared.thin_faces;
-    mesh.report.notes.clone_from(&prepared.notes);
-    for library in libraries {
-        mesh.materials.extend(library.materials);
-    }
-    assemble(&mut mesh, &models, path)?;
-    locate_infinite(&mesh, &prepared, path)?;
+    mesh.report.degenerate = text.thin_faces;
+    mesh.report.notes = text.notes();
+    let runs = runs(&text, &libraries);
+    mesh.materials = libraries.into_iter().flatten().collect();
+    assemble(&mut mesh, &text, &runs, path)?;
     Ok(mesh)
 }
 
-/// Runs the parser; the n-th `mtllib` gets the n-th library.
-fn read(reader: &mut LineCounter<'_>, libraries: &[mtl::Library]) -> tobj::LoadResult {
-    let options = tobj::LoadOptions {
-        single_index: true,
-        ignore_lines: true,
-        ignore_points: true,
-        ..Default::default()
-    };
-    let next = Cell::new(0);
-    tobj::load_obj_buf(reader, &options, |_| {
-        let library = libraries.get(next.replace(next.get() + 1));
-        library.map_or_else(|| Ok(Default::default()), |library| library.parsed.clone())
-    })
+/// Faces of one group with one material; vertices are not shared with other runs.
+struct Run {
+    arities: Range<usize>,
+    corners: Range<usize>,
+    /// A place among the materials of all libraries.
+    material: Option<u32>,
 }
 
-/// Puts all models into one mesh.
-fn assemble(mesh: &mut Mesh, models: &[tobj::Model], path: &Path) -> Result<(), LoadError> {
-    let total: usize = models.iter().map(|m| m.mesh.positions.len() / 3).sum();
-    if u32::try_from(total).is_err() {
-        let message = format!("has {total} different corners: at most 2^32 - 1 can be numbered");
-        return Err(LoadError::Malformed { path: path.to_owned(), line: None, message });
+/// The runs of a text, none of them empty; the n-th `mtllib` brings the n-th library.
+fn runs(text: &ObjText, libraries: &[Vec<Material>]) -> Vec<Run> {
+    let mut runs = Runs { text, all: Vec::new(), end: [0; 2], material: None };
+    let mut libraries = libraries.iter();
+    let mut known: HashMap<&str, u32> = HashMap::new();
+    let mut count = 0;
+    for mark in &text.marks {
+        match &mark.kind {
+            MarkKind::Group => runs.end_at(mark.face),
+            MarkKind::Library(_) => {
+                for material in libraries.next().into_iter().flatten() {
+                    known.insert(&material.name, count);
+                    count += 1;
+                }
+            }
+            MarkKind::Material(name) => {
+                let material = known.get(name.as_str()).copied();
+                if material != runs.material {
+                    runs.end_at(mark.face);
+                }
+                runs.material = material;
+            }
+        }
     }
-    let with_normals = models.iter().any(|m| has_normals(&m.mesh));
-    let with_uvs = models.iter().any(|m| !m.mesh.texcoords.is_empty());
-    for model in models {
-        let first = mesh.triangles.len();
-        add_triangles(mesh, &model.mesh);
-        add_normals(mesh, &model.mesh, with_normals, first);
-        add_uvs(mesh, &model.mesh, with_uvs);
-        add_materials(mesh, model.mesh.material_id);
+    runs.end_at(text.arities.len());
+    runs.all
+}
+
+/// Runs so far.
+struct Runs<'a> {
+    text: &'a ObjText,
+    all: Vec<Run>,
+    /// Faces and corners of all runs.
+    end: [usize; 2],
+    material: Option<u32>,
+}
+
+impl Runs<'_> {
+    fn end_at(&mut self, face: usize) {
+        let [start, corner] = self.end;
+        let corners: usize = self.text.arities[start..face].iter().map(|&n| n as usize).sum();
+        if face > start {
+            self.end = [face, corner + corners];
+            let (arities, corners) = (start..face, corner..corner + corners);
+            self.all.push(Run { arities, corners, material: self.material });
+        }
+    }
+}
+
+/// Puts all runs into one mesh.
+fn assemble(mesh: &mut Mesh, text: &ObjText, runs: &[Run], path: &Path) -> Result<(), LoadError> {
+    let with_normals = runs.iter().any(|run| has_normals(&text.corners[run.corners.clone()]));
+    let with_uvs = text.corners.iter().any(|corner| corner[1] != NONE);
+    let mut vertices = Vertices::new(text.positions.len());
+    for run in runs {
+        let mut triangles = Vec::with_capacity(run.corners.len());
+        cut(text, run, &mut vertices, &mut triangles, path)?;
+        let mut vertices = Cow::Borrowed(&vertices.all);
+        let is_flat = with_normals && !has_normals(&vertices);
+        if is_flat {
+            vertices = Cow::Owned(unshare(&vertices, &mut triangles));
+        }
+        let first = first_of(mesh, &vertices, path)?;
+        mesh.triangles.extend(triangles.iter().map(|t| t.map(|v| v + first)));
+        mesh.positions.extend(column(&vertices, 0, &text.positions));
+        if is_flat {
+            let triangles = mesh.positions[first as usize..].as_chunks().0;
+            mesh.normals.extend(triangles.iter().flat_map(|t| [cross_product(*t).map(|x| x as f32); 3]));
+        } else if with_normals {
+            mesh.normals.extend(column(&vertices, 2, &text.normals));
+        }
+        if with_uvs {
+            mesh.uvs.extend(column(&vertices, 1, &text.uvs));
+        }
+        add_materials(mesh, run.material);
     }
     Ok(())
 }
 
-/// Whether every corner of a model names a normal: with some left out, the column could not be told apart.
-fn has_normals(model: &tobj::Mesh) -> bool {
-    !model.normals.is_empty() && model.normals.len() == model.positions.len()
+/// Whether every corner names a normal: with some left out, the run is flat.
+fn has_normals(corners: &[[u32; 3]]) -> bool {
+    corners.iter().all(|corner| corner[2] != NONE)
 }
 
-fn add_triangles(mesh: &mut Mesh, model: &tobj::Mesh) {
-    let base = mesh.positions.len() as u32;
-    mesh.positions.extend_from_slice(model.positions.as_chunks().0);
-    if model.face_arities.is_empty() {
-        mesh.triangles.extend(model.indices.as_chunks().0.iter().map(|t: &[u32; 3]| t.map(|v| v + base)));
-        return;
+/// The vertices of a run, and its triangles over these.
+fn cut(
+    text: &ObjText,
+    run: &Run,
+    vertices: &mut Vertices,
+    triangles: &mut Vec<[u32; 3]>,
+    path: &Path,
+) -> Result<(), LoadError> {
+    let numbers = vertices.number(&text.corners[run.corners.clone()]);
+    let positions: Vec<[f32; 3]> = column(&vertices.all, 0, &text.positions).collect();
+    if let Some(at) = positions.iter().position(|p| p.iter().any(|x| !x.is_finite())) {
+        let vertex = vertices.all[at][0] as usize + 1;
+        return Err(LoadError::NotFinite { path: path.to_owned(), vertex, position: positions[at] });
     }
-    let mut rest = model.indices.as_slice();
-    let mut polygon = Vec::new();
-    for &arity in &model.face_arities {
-        let (corners, behind) = rest.split_at(arity as usize);
-        polygon.clear();
-        polygon.extend(corners.iter().map(|v| v + base));
-        triangulate(&mesh.positions, &polygon, &mut mesh.triangles);
+    let mut rest = numbers.as_slice();
+    for &arity in &text.arities[run.arities.clone()] {
+        let (polygon, behind) = rest.split_at(arity as usize);
+        triangulate(&positions, polygon, triangles);
         rest = behind;
     }
+    Ok(())
 }
 
-/// Adds the model's normals. In a mesh where only some models have them, the triangles of the others (from `first` on)
-/// get corners of their own with the normal of the triangle: they stay flat.
-fn add_normals(mesh: &mut Mesh, model: &tobj::Mesh, wanted: bool, first: usize) {
-    if !wanted {
-        return;
+/// Corners of its own for every triangle: what is flat shares no vertices, as these have one normal each.
+fn unshare(vertices: &[[u32; 3]], triangles: &mut [[u32; 3]]) -> Vec<[u32; 3]> {
+    let corners = triangles.as_flattened().iter().map(|&v| vertices[v as usize]).collect();
+    for (number, corner) in triangles.as_flattened_mut().iter_mut().enumerate() {
+        *corner = number as u32;
     }
-    if has_normals(model) {
-        mesh.normals.extend_from_slice(model.normals.as_chunks().0);
-        return;
-    }
-    let base = mesh.normals.len();
-    let corners: Vec<[[f32; 3]; 3]> =
-        mesh.triangles[first..].iter().map(|t| t.map(|v| mesh.positions[v as usize])).collect();
-    mesh.positions.truncate(base);
-    for (triangle, corners) in mesh.triangles[first..].iter_mut().zip(corners) {
-        let vertex = mesh.positions.len() as u32;
-        *triangle = [vertex, vertex + 1, vertex + 2];
-        mesh.positions.extend(corners);
-        mesh.normals.extend([cross_product(corners).map(|x| x as f32); 3]);
+    corners
+}
+
+/// The number of the first of the vertices that are added.
+fn first_of(mesh: &Mesh, added: &[[u32; 3]], path: &Path) -> Result<u32, LoadError> {
+    let (first, total) = (mesh.positions.len(), mesh.positions.len() + added.len());
+    let message = || format!("has {total} different corners: at most 2^32 - 1 can be numbered");
+    match u32::try_from(total) {
+        Ok(_) => Ok(first as u32),
+        Err(_) => Err(LoadError::Malformed { path: path.to_owned(), line: None, message: message() }),
     }
 }
 
-/// Adds the model's texture coordinates, zeros where it has none.
-fn add_uvs(mesh: &mut Mesh, model: &tobj::Mesh, wanted: bool) {
-    if !wanted {
-        return;
-    }
-    // Corners of their own (flat models) or corners without coordinates: nothing to match by number.
-    let added = mesh.positions.len() - mesh.uvs.len();
-    if model.texcoords.len() == 2 * added {
-        mesh.uvs.extend_from_slice(model.texcoords.as_chunks().0);
-    } else {
-        mesh.uvs.resize(mesh.positions.len(), [0.0; 2]);
-    }
+/// An attribute of each vertex, zeros where a vertex has none.
+fn column<'a, T: Copy + Default>(
+    vertices: &'a [[u32; 3]],
+    kind: usize,
+    values: &'a [T],
+) -> impl Iterator<Item = T> + 'a {
+    vertices.iter().map(move |vertex| values.get(vertex[kind] as usize).copied().unwrap_or_default())
 }
 
 /// Gives all new triangles one material. Faces before any `usemtl` get a plain one in a file that has materials.
-fn add_materials(mesh: &mut Mesh, material: Option<usize>) {
-    if mesh.materials.is_empty() || mesh.triangles.len() == mesh.triangle_materials.len() {
+fn add_materials(mesh: &mut Mesh, material: Option<u32>) {
+    if mesh.materials.is_empty() {
         return;
     }
     let material = material.unwrap_or_else(|| {
@@ -132,50 +179,10 @@ fn add_materials(mesh: &mut Mesh, material: Option<usize>) {
         plain.unwrap_or_else(|| {
             mesh.materials.push(Material::new(UNNAMED, MaterialKind::Diffuse));
             mesh.materials.len() - 1
-        })
+        }) as u32
     });
-    mesh.triangle_materials.resize(mesh.triangles.len(), material as u32);
+    mesh.triangle_materials.resize(mesh.triangles.len(), material);
 }
 
 /// Name of the material of faces that use none.
 const UNNAMED: &str = "without usemtl";
-
-/// Corners were numbered anew, so a vertex that is not finite is looked up in the text for its own number.
-fn locate_infinite(mesh: &Mesh, prepared: &ObjText, path: &Path) -> Result<(), LoadError> {
-    let finite = |v: &u32| mesh.positions[*v as usize].iter().all(|x| x.is_finite());
-    let Some(&used) = mesh.triangles.as_flattened().iter().find(|v| !finite(v)) else { return Ok(()) };
-    let position = mesh.positions[used as usize];
-    let vertices = prepared.text.lines().filter_map(|line| line.strip_prefix("v "));
-    let same = |line: &str| {
-        let numbers: Vec<f32> = line.split_whitespace().filter_map(|word| word.parse().ok()).collect();
-        numbers.iter().take(3).map(|x| x.to_bits()).eq(position.iter().map(|x| x.to_bits()))
-    };
-    let vertex = vertices.enumerate().find(|(_, line)| same(line)).map_or(0, |(number, _)| number + 1);
-    Err(LoadError::NotFinite { path: path.to_owned(), vertex, position })
-}
-
-/// Counts the lines that the parser has taken: it stops at the line it does not understand.
-struct LineCounter<'a> {
-    rest: &'a [u8],
-    line: usize,
-}
-
-impl Read for LineCounter<'_> {
-    fn read(&mut self, buffer: &mut [u8]) -> std::io::Result<usize> {
-        let count = self.rest.read(buffer)?;
-        self.line += buffer[..count].iter().filter(|&&b| b == b'\n').count();
-        Ok(count)
-    }
-}
-
-impl BufRead for LineCounter<'_> {
-    fn fill_buf(&mut self) -> std::io::Result<&[u8]> {
-        Ok(self.rest)
-    }
-
-    fn consume(&mut self, amount: usize) {
-        let (taken, rest) = self.rest.split_at(amount);
-        self.line += taken.iter().filter(|&&b| b == b'\n').count();
-        self.rest = rest;
-    }
-}

@@ -1,167 +1,279 @@
-//! One pass over the text of an OBJ before it is parsed: finds the lines that matter later, checks every index,
-//! and smooths what the parser does not take.
+//! The statements of an OBJ text as columns and corners, every complaint with its line.
+//!
+//! The text is cut into pieces between statements. A first pass counts what each piece declares, so that a second one
+//! can resolve and check every number of a face where it stands, all pieces at once; what comes out does not depend on
+//! how they were cut.
 
-use std::borrow::Cow;
+use super::obj_words::{Statements, Words, integer, pieces};
+use rayon::prelude::*;
 
-/// An OBJ text ready for the parser, with the same line numbers, and what is to know about it.
-#[derive(Debug, Default)]
+/// What an OBJ text says, in its order.
+#[derive(Debug, Default, PartialEq)]
 pub(super) struct ObjText {
-    /// The text without polylines, colours and continued lines.
-    pub(super) text: String,
-    /// Line and file names of each `mtllib`.
-    pub(super) libraries: Vec<(usize, String)>,
-    /// Line and name of each `usemtl`.
-    pub(super) materials: Vec<(usize, String)>,
+    pub(super) positions: Vec<[f32; 3]>,
+    pub(super) uvs: Vec<[f32; 2]>,
+    pub(super) normals: Vec<[f32; 3]>,
+    /// The corners of all faces: places in the columns of positions, texture coordinates and normals.
+    pub(super) corners: Vec<[u32; 3]>,
+    /// How many corners each face has, at least three.
+    pub(super) arities: Vec<u32>,
+    /// Between faces.
+    pub(super) marks: Vec<Mark>,
     /// Faces with fewer than three corners.
     pub(super) thin_faces: usize,
-    /// What was odd but could be read.
-    pub(super) notes: Vec<String>,
-    /// Vertices, texture coordinates and normals so far.
-    counts: [usize; 3],
-    /// The highest number used of each, and the line.
-    highest: [(usize, usize); 3],
+    /// True for the attributes that faces name and the file does not have.
+    absent: [bool; 3],
+}
+
+/// Something that applies to the faces that follow.
+#[derive(Debug, PartialEq)]
+pub(super) struct Mark {
+    /// How many faces stand before it.
+    pub(super) face: usize,
+    pub(super) line: usize,
+    pub(super) kind: MarkKind,
+}
+
+#[derive(Debug, PartialEq)]
+pub(super) enum MarkKind {
+    /// `o` or `g`.
+    Group,
+    /// `mtllib` with its file names.
+    Library(String),
+    /// `usemtl`.
+    Material(String),
 }
 
 /// What is wrong in which line.
 pub(super) type LineError = (usize, String);
 
-/// Stands for a number below zero that reaches before the first one.
-const TOO_FAR_BACK: usize = usize::MAX;
+/// The place of an attribute that a corner does not have.
+pub(super) const NONE: u32 = u32::MAX;
 
 const KINDS: [&str; 3] = ["vertex", "texture coordinate", "normal"];
 
-/// The prepared text.
+/// Bytes a piece: enough to be worth a thread's while.
+const PIECE_BYTES: usize = 1 << 18;
+
+/// The columns and faces of an OBJ text.
 ///
 /// # Errors
-/// The first face whose numbers make no sense or point outside the file.
-pub(super) fn prepare(source: &str) -> Result<ObjText, LineError> {
-    let mut prepared = ObjText { text: String::with_capacity(source.len()), ..ObjText::default() };
-    let source = source.strip_prefix('\u{feff}').unwrap_or(source);
-    let mut lines = source.lines().enumerate();
-    while let Some((index, line)) = lines.next() {
-        let (mut whole, mut taken) = (Cow::Borrowed(line), 1);
-        while whole.ends_with('\\') {
-            whole.to_mut().pop();
-            let Some((_, next)) = lines.next() else { break };
-            whole.to_mut().push_str(next);
-            taken += 1;
-        }
-        prepared.add(&whole, index + 1).map_err(|message| (index + 1, message))?;
-        prepared.text.extend(std::iter::repeat_n('\n', taken));
+/// The first statement that makes no sense, or a face that points outside the file.
+pub(super) fn read(source: &[u8]) -> Result<ObjText, LineError> {
+    read_in(source, PIECE_BYTES)
+}
+
+fn read_in(source: &[u8], piece_bytes: usize) -> Result<ObjText, LineError> {
+    let pieces = pieces(source.strip_prefix(b"\xef\xbb\xbf").unwrap_or(source), piece_bytes);
+    let counts: Vec<Counts> = pieces.par_iter().map(|piece| Counts::of(piece)).collect();
+    let mut total = Counts { lines: 1, kinds: [0; 3] };
+    let starts: Vec<Counts> = counts.iter().map(|piece| total.advance(piece)).collect();
+    if let Some(kind) = (0..3).find(|&kind| total.kinds[kind] >= i64::from(NONE)) {
+        let [name, count] = [KINDS[kind], &total.kinds[kind].to_string()];
+        return Err((1, format!("has {count} of kind {name}: at most 2^32 - 2 can be numbered")));
     }
-    prepared.check_highest()?;
-    Ok(prepared)
+    let read = |(piece, start): (&&[u8], Counts)| Part::read(piece, start, total.kinds);
+    let parts: Vec<Result<ObjText, LineError>> = pieces.par_iter().zip(starts).map(read).collect();
+    let mut text = ObjText::default();
+    for part in parts {
+        text.append(part?);
+    }
+    Ok(text)
+}
+
+/// Lines, and statements of each of [`KINDS`].
+#[derive(Clone, Copy)]
+struct Counts {
+    lines: usize,
+    kinds: [i64; 3],
+}
+
+impl Counts {
+    fn of(piece: &[u8]) -> Self {
+        let mut kinds = [0; 3];
+        let mut statements = Statements::of(piece, 0);
+        for (_, statement) in &mut statements {
+            match Words::of(&statement).next() {
+                Some(b"v") => kinds[0] += 1,
+                Some(b"vt") => kinds[1] += 1,
+                Some(b"vn") => kinds[2] += 1,
+                _ => {}
+            }
+        }
+        Self { lines: statements.line, kinds }
+    }
+
+    /// What there was before, and then also what `by` counts.
+    fn advance(&mut self, by: &Self) -> Self {
+        let before = *self;
+        self.lines += by.lines;
+        self.kinds = std::array::from_fn(|kind| self.kinds[kind] + by.kinds[kind]);
+        before
+    }
 }
 
 impl ObjText {
-    fn add(&mut self, line: &str, number: usize) -> Result<(), String> {
-        let line = line.trim();
-        let (keyword, rest) = line.split_once(char::is_whitespace).unwrap_or((line, ""));
-        match keyword {
-            "v" => self.add_vertex(rest),
-            "vt" => {
-                self.counts[1] += 1;
-                self.text.push_str(line);
-                // A texture of one dimension: the second coordinate is 0.
-                if rest.split_whitespace().count() == 1 {
-                    self.text.push_str(" 0");
-                }
+    /// Each `mtllib` line and its file names.
+    pub(super) fn libraries(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.marks.iter().filter_map(|mark| match &mark.kind {
+            MarkKind::Library(names) => Some((mark.line, names.as_str())),
+            _ => None,
+        })
+    }
+
+    /// Each `usemtl` line and its material.
+    pub(super) fn materials(&self) -> impl Iterator<Item = (usize, &str)> {
+        self.marks.iter().filter_map(|mark| match &mark.kind {
+            MarkKind::Material(name) => Some((mark.line, name.as_str())),
+            _ => None,
+        })
+    }
+
+    /// What was odd but could be read.
+    pub(super) fn notes(&self) -> Vec<String> {
+        let absent = (0..3).filter(|&kind| self.absent[kind]);
+        absent.map(|kind| format!("faces name {}s, but the file has none", KINDS[kind])).collect()
+    }
+
+    fn append(&mut self, mut part: Self) {
+        let faces = self.arities.len();
+        self.marks.extend(part.marks.drain(..).map(|mark| Mark { face: mark.face + faces, ..mark }));
+        self.positions.append(&mut part.positions);
+        self.uvs.append(&mut part.uvs);
+        self.normals.append(&mut part.normals);
+        self.corners.append(&mut part.corners);
+        self.arities.append(&mut part.arities);
+        self.thin_faces += part.thin_faces;
+        self.absent = std::array::from_fn(|kind| self.absent[kind] || part.absent[kind]);
+    }
+}
+
+/// A piece while it is read.
+struct Part {
+    text: ObjText,
+    /// Of each kind, how many there were so far.
+    seen: [i64; 3],
+    /// Of each kind, how many there are in the file.
+    total: [i64; 3],
+}
+
+impl Part {
+    fn read(piece: &[u8], start: Counts, total: [i64; 3]) -> Result<ObjText, LineError> {
+        let mut part = Self { text: ObjText::default(), seen: start.kinds, total };
+        for (line, statement) in Statements::of(piece, start.lines) {
+            part.add(&statement, line).map_err(|message| (line, message))?;
+        }
+        Ok(part.text)
+    }
+
+    fn add(&mut self, statement: &[u8], line: usize) -> Result<(), String> {
+        let mut words = Words::of(statement);
+        match words.next() {
+            Some(b"v") => {
+                self.seen[0] += 1;
+                self.text.positions.push(position(words)?);
             }
-            "vn" => {
-                self.counts[2] += 1;
-                self.text.push_str(line);
+            Some(b"vt") => {
+                self.seen[1] += 1;
+                self.text.uvs.push(uv(words).ok_or("texcoord parse error")?);
             }
-            "f" => self.add_face(line, rest, number)?,
-            "mtllib" => {
-                self.libraries.push((number, rest.trim().to_owned()));
-                self.text.push_str("mtllib -");
+            Some(b"vn") => {
+                self.seen[2] += 1;
+                self.text.normals.push(three(&mut words).ok_or("normal parse error")?);
             }
-            "usemtl" if rest.trim().is_empty() => return Err("usemtl names no material".to_owned()),
-            "usemtl" => {
-                self.materials.push((number, rest.trim().to_owned()));
-                self.text.push_str("usemtl ");
-                self.text.push_str(rest.trim());
-            }
-            "o" | "g" => self.text.push_str(line),
-            // Lines, points, smoothing groups, curves: the parser would take polylines for polygons.
+            Some(b"f") => self.face(words)?,
+            Some(b"o" | b"g") => self.mark(line, MarkKind::Group),
+            Some(b"mtllib") => self.mark(line, MarkKind::Library(words.name())),
+            Some(b"usemtl") => match words.name() {
+                name if name.is_empty() => return Err("usemtl names no material".to_owned()),
+                name => self.mark(line, MarkKind::Material(name)),
+            },
+            // Lines, points, smoothing groups, curves.
             _ => {}
         }
         Ok(())
     }
 
-    /// Colours behind the coordinates are left out; a fourth coordinate stays.
-    fn add_vertex(&mut self, rest: &str) {
-        self.counts[0] += 1;
-        let words = rest.split_whitespace().count();
-        let kept = if words > 4 { 3 } else { words };
-        self.text.push('v');
-        for word in rest.split_whitespace().take(kept) {
-            self.text.push(' ');
-            self.text.push_str(word);
-        }
+    fn mark(&mut self, line: usize, kind: MarkKind) {
+        self.text.marks.push(Mark { face: self.text.arities.len(), line, kind });
     }
 
-    fn add_face(&mut self, line: &str, rest: &str, number: usize) -> Result<(), String> {
-        let mut corners = 0;
-        for corner in rest.split_whitespace() {
-            // Comments at the end of a line are no part of the format, but are seen.
-            if corner.starts_with('#') {
-                return Err(format!("`{corner}` is no corner of a face: v, v/vt, v//vn or v/vt/vn are"));
+    fn face(&mut self, words: Words<'_>) -> Result<(), String> {
+        let first = self.text.corners.len();
+        for word in words {
+            let corner = self.corner(word)?;
+            self.text.corners.push(corner);
+        }
+        match self.text.corners.len() - first {
+            thin @ 0..3 => {
+                self.text.thin_faces += 1;
+                self.text.corners.truncate(self.text.corners.len() - thin);
             }
-            self.check_corner(corner, number)?;
-            corners += 1;
+            arity => self.text.arities.push(arity as u32),
         }
-        if corners < 3 {
-            self.thin_faces += 1;
-            return Ok(());
-        }
-        self.text.push_str(line);
         Ok(())
     }
 
-    fn check_corner(&mut self, corner: &str, number: usize) -> Result<(), String> {
-        let malformed = || format!("`{corner}` is no corner of a face: v, v/vt, v//vn or v/vt/vn are");
-        for (kind, index) in corner.split('/').enumerate() {
-            if index.is_empty() && kind > 0 {
+    fn corner(&mut self, word: &[u8]) -> Result<[u32; 3], String> {
+        let mut corner = [NONE; 3];
+        for (kind, number) in word.split(|&b| b == b'/').enumerate() {
+            if number.is_empty() && kind > 0 {
                 continue;
             }
-            let count = *self.counts.get(kind).ok_or_else(malformed)?;
-            match index.parse::<i64>().map_err(|_| malformed())? {
-                0 => return Err(format!("`{corner}` uses {} 0: they are counted from 1", KINDS[kind])),
-                index if index > 0 => {
-                    let index = index as usize;
-                    if index > self.highest[kind].0 {
-                        self.highest[kind] = (index, number);
-                    }
-                }
-                index if index.unsigned_abs() > count as u64 => {
-                    self.highest[kind] = (TOO_FAR_BACK, number);
-                }
-                _ => {}
-            }
+            let number = integer(number).filter(|_| kind < 3).ok_or_else(|| no_corner(word))?;
+            corner[kind] = self.place(kind, number, word)?;
         }
-        Ok(())
+        Ok(corner)
     }
 
-    /// Numbers may point ahead, so the highest ones are compared at the end.
-    ///
-    /// Some programs write numbers of texture coordinates or normals and leave out the coordinates: these are ignored.
-    fn check_highest(&mut self) -> Result<(), LineError> {
-        for (kind, name) in KINDS.into_iter().enumerate() {
-            let ((index, line), count) = (self.highest[kind], self.counts[kind]);
-            if index <= count {
-                continue;
+    /// The place in its column that a number means: from 1 upwards, or back from the last one.
+    fn place(&mut self, kind: usize, number: i64, word: &[u8]) -> Result<u32, String> {
+        let (name, total) = (KINDS[kind], self.total[kind]);
+        let place = if number > 0 { number - 1 } else { self.seen[kind] + number };
+        match number {
+            0 => {
+                let word = String::from_utf8_lossy(word);
+                Err(format!("`{word}` uses {name} 0: they are counted from 1"))
             }
-            if kind > 0 && count == 0 {
-                self.notes.push(format!("faces name {name}s, but the file has none"));
-            } else if index == TOO_FAR_BACK {
-                return Err((line, format!("a face counts back to a {name} before the first")));
-            } else {
-                return Err((line, format!("a face uses {name} {index}: the file has {count}")));
+            _ if (0..total).contains(&place) => Ok(place as u32),
+            // Some programs write numbers of texture coordinates or normals and leave out the coordinates.
+            _ if total == 0 && kind > 0 => {
+                self.text.absent[kind] = true;
+                Ok(NONE)
             }
+            1.. => Err(format!("a face uses {name} {number}: the file has {total}")),
+            _ => Err(format!("a face counts back to a {name} before the first")),
         }
-        Ok(())
     }
+}
+
+fn no_corner(word: &[u8]) -> String {
+    // Comments at the end of a line are no part of the format, but are seen.
+    format!("`{}` is no corner of a face: v, v/vt, v//vn or v/vt/vn are", String::from_utf8_lossy(word))
+}
+
+fn three(words: &mut Words<'_>) -> Option<[f32; 3]> {
+    Some([words.number()?, words.number()?, words.number()?])
+}
+
+/// Three coordinates, and perhaps one that divides them. More numbers are a colour, which is not read.
+fn position(mut words: Words<'_>) -> Result<[f32; 3], &'static str> {
+    const WRONG: &str = "position parse error";
+    let position = three(&mut words).ok_or(WRONG)?;
+    if words.clone().count() != 1 {
+        return Ok(position);
+    }
+    match words.number().ok_or(WRONG)? {
+        0.0 => Err("scaling (w) by zero"),
+        w => Ok(position.map(|x| x / w)),
+    }
+}
+
+/// Two coordinates; the second of a texture of one dimension is 0.
+fn uv(mut words: Words<'_>) -> Option<[f32; 2]> {
+    let u = words.number()?;
+    let v = if words.clone().next().is_some() { words.number()? } else { 0.0 };
+    Some([u, v])
 }
 
 #[cfg(test)]
@@ -171,7 +283,7 @@ mod tests {
     const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
     fn fault(faces: &str) -> LineError {
-        prepare(&format!("{TRIANGLE}{faces}")).unwrap_err()
+        read(format!("{TRIANGLE}{faces}").as_bytes()).unwrap_err()
     }
 
     #[test]
@@ -188,6 +300,13 @@ mod tests {
             "f / 1 2",
             "f 99999999999999999999 1 2",
             "f -9223372036854775808 1 2",
+            "f 1 2 3 # four",
+            "vt zero",
+            "vt 0 # one",
+            "vn 0 0",
+            "v 0 0 0 0",
+            "v 0 0 0 x",
+            "usemtl ",
         ] {
             assert_eq!(fault(bad).0, 4, "{bad}");
         }
@@ -195,21 +314,39 @@ mod tests {
 
     #[test]
     fn numbers_of_attributes_that_are_nowhere_are_ignored() {
-        let prepared = prepare(&format!("{TRIANGLE}f 1/7/-2 2/8/1 3/9/1\n")).unwrap();
-        assert_eq!(prepared.notes.len(), 2, "{:?}", prepared.notes);
+        let text = read(format!("{TRIANGLE}f 1/7/-2 2/8/1 3/9/1\n").as_bytes()).unwrap();
+        assert_eq!(text.notes().len(), 2, "{:?}", text.notes());
+        assert_eq!(text.corners, [[0, NONE, NONE], [1, NONE, NONE], [2, NONE, NONE]]);
     }
 
     #[test]
-    fn lines_keep_their_numbers() {
-        let prepared = prepare("v 0 0 \\\n0\nv 1 0 0\nl 1 2\nvt 0.5\nusemtl\tred\n").unwrap();
-        assert_eq!(prepared.text, "v 0 0 0\n\nv 1 0 0\n\nvt 0.5 0\nusemtl red\n");
-        assert_eq!(prepared.materials, [(6, "red".to_owned())]);
+    fn marks_keep_lines_and_faces() {
+        let text =
+            read(b"mtllib a b.mtl\nv 0 0 \\\n0\nl 1 2\nvt 0.5\nf 1 1 1\nusemtl\tred \n g x\n").unwrap();
+        assert_eq!(text.libraries().collect::<Vec<_>>(), [(1, "a b.mtl")]);
+        assert_eq!(text.materials().collect::<Vec<_>>(), [(7, "red")]);
+        assert_eq!(text.marks[2], Mark { face: 1, line: 8, kind: MarkKind::Group });
+        assert_eq!(text.uvs, [[0.5, 0.0]]);
     }
 
     #[test]
-    fn colours_go_and_thin_faces_are_counted() {
-        let prepared = prepare("v 0 0 0 1 0.5 0\nv 1 0 0 1\nf 1 2\nf 1\n").unwrap();
-        assert_eq!(prepared.text, "v 0 0 0\nv 1 0 0 1\n\n\n");
-        assert_eq!(prepared.thin_faces, 2);
+    fn colours_go_weights_divide_and_thin_faces_are_counted() {
+        let text = read(b"v 0 0 0 1 0.5 0\nv 1 0 4 2\nf 1 2\nf 1\n").unwrap();
+        assert_eq!(text.positions, [[0.0; 3], [0.5, 0.0, 2.0]]);
+        assert_eq!((text.thin_faces, text.corners.len()), (2, 0));
+    }
+
+    #[test]
+    fn all_cuts_give_the_same() {
+        let source = format!(
+            "{TRIANGLE}vt 0 1\ng a\nf -3/1 -2 \\\n -1\nv 2 \\\r\n2 2\r\nusemtl x\nf 1 2 3 4\nvn 0 0 1\nf 4//-1 -2 1\nf 1\n"
+        );
+        let whole = read(source.as_bytes()).unwrap();
+        assert_eq!(whole.corners[7], [3, NONE, 0]);
+        let broken = source.replace("f 4//-1", "f 9//-1");
+        for bytes in 0..source.len() {
+            assert_eq!(read_in(source.as_bytes(), bytes).unwrap(), whole, "{bytes}");
+            assert_eq!(read_in(broken.as_bytes(), bytes).unwrap_err().0, 13, "{bytes}");
+        }
     }
 }

@@ -38,6 +38,73 @@ fn wrong_types_and_missing_keys_show_their_line() {
 }
 
 #[test]
+fn arrays_with_too_many_elements_show_their_line() {
+    let text =
+        parse("[camera]\nposition = [0, 0, -5, 7]\nlook_at = [0, 0, 0]\n", "s.toml").unwrap_err().to_string();
+    assert!(text.starts_with("s.toml:2:12: invalid length 4, expected an array of length 3"), "{text}");
+    assert!(message("[render]\nsize = [4, 3, 2, 1]\n").starts_with("s.toml:5:8: invalid length 4, expected"));
+    let text = with_sets("", &["render.size=[4, 3, 2]"]).unwrap_err();
+    assert!(
+        text.starts_with("--set render.size=[4, 3, 2]: invalid length 3, expected an array of length 2"),
+        "{text}"
+    );
+    let four = message("[[triangle]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0], [0, 0, 1]]\n");
+    assert!(four.starts_with("s.toml:5:12: invalid length 4, expected an array of length 3"), "{four}");
+}
+
+/// A scene with every key that takes an array of a fixed length.
+const ARRAYS: &str = "[camera]\nposition = [0, 0, -5]\nlook_at = [0, 0, 0]\nup = [0, 1, 0]
+    transform = [{ translate = [0, 0, 1] }, { matrix = [[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]] }]
+    [render]\nsize = [4, 3]\n[background]\ncolor = [0, 0, 1]
+    [[material]]\nname = 'a'\nkd = [1, 1, 1]\nks = [0, 0, 0]\nka = [0, 0, 0]\nemission = [1, 1, 2]
+    [[light.point]]\nposition = [0, 5, 0]\ncolor = [1, 1, 2]\nintensity = 1
+    [[light.directional]]\ndirection = [0, -1, 0]\nintensity = 1
+    [[light.spot]]\nposition = [0, 5, 0]\nlook_at = [0, 0, 0]\ncone_deg = 30\nintensity = 1
+    [[sphere]]\ncenter = [0, 0, 0]\nradius = 1\ntransform = [{ scale = [1, 2, 3] }]
+    [[cylinder]]\nfrom = [0, 0, 0]\nto = [0, 1, 0]\nradius = 1
+    [[cylinder]]\ncenter = [0, 0, 0]\nhalf_height = 1\nradius = 1
+    [[triangle]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]
+    transform = [{ rotate_deg = { axis = [0, 1, 0], angle = 9 } }]
+    [[quad]]\norigin = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 1, 0]
+    [[plane]]\npoint = [0, 0, 0]\nnormal = [0, 1, 0]
+    [[mesh]]\nvertices = [[0, 0, 0], [1, 0, 0], [0, 1, 0]]\nfaces = [[0, 1, 2]]\n";
+
+/// Lengthens the `n`-th array of numbers by one; false if there are fewer.
+fn lengthen(value: &mut toml::Value, n: &mut usize) -> bool {
+    match value {
+        toml::Value::Table(table) => {
+            table.iter_mut().filter(|(key, _)| *key != "faces").any(|(_, value)| lengthen(value, n))
+        }
+        toml::Value::Array(array) if array.iter().all(|v| v.is_integer() || v.is_float()) => {
+            array.push(toml::Value::Integer(0));
+            let is_it = *n == 0;
+            if !is_it {
+                array.pop();
+                *n -= 1;
+            }
+            is_it
+        }
+        toml::Value::Array(array) => array.iter_mut().any(|value| lengthen(value, n)),
+        _ => false,
+    }
+}
+
+#[test]
+fn no_array_drops_what_is_too_much() {
+    parse(ARRAYS, "s.toml").unwrap();
+    let longer = |n: usize| {
+        let mut scene = toml::Value::Table(ARRAYS.parse().unwrap());
+        lengthen(&mut scene, &mut n.clone()).then(|| toml::to_string(&scene).unwrap())
+    };
+    let scenes: Vec<String> = (0..).map_while(longer).collect();
+    assert_eq!(scenes.len(), 35);
+    for scene in scenes {
+        let text = parse(&scene, "s.toml").unwrap_err().to_string();
+        assert!(text.contains("invalid length"), "{text} in {scene}");
+    }
+}
+
+#[test]
 fn empty_and_cut_off_files() {
     assert!(parse("", "s.toml").unwrap_err().to_string().starts_with("s.toml:1:1: missing key `camera`"));
     assert!(message("[[sphere]]\ncenter = [0, 0").starts_with("s.toml:5:"));

@@ -72,7 +72,16 @@ impl Scene {
     ///
     /// **Errors:** [`CompileError`], naming the object.
     pub fn compile(description: &SceneDescription) -> Result<Self, CompileError> {
-        Self::compile_like(description, &KeptMeshes::default(), None)
+        Self::compile_with(description, &KeptMeshes::default())
+    }
+
+    /// As [`Scene::compile`], with meshes that may have been loaded to make the description. Those that it names more than
+    /// once are loaded once, and kept no longer than needed.
+    ///
+    /// **Errors:** [`CompileError`], naming the object.
+    pub fn compile_with(description: &SceneDescription, meshes: &KeptMeshes) -> Result<Self, CompileError> {
+        meshes.expect(description);
+        Self::compile_like(description, meshes, None)
     }
 
     /// As [`Scene::compile`], with meshes that may be kept from before, and a tree that may be that of `like`, moved.
