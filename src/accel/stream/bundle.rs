@@ -44,7 +44,6 @@ pub(super) struct Stacks<'a> {
 
 impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
     /// The bundle of some rays; `None` where they do not make one.
-    #[inline(always)]
     pub(super) fn new(
         rays: &'a [RayLanes<T::Wide>],
         apex: Apex,

@@ -36,14 +36,6 @@ pub enum Apex {
 }
 
 impl Apex {
-    /// The point, and whether it is where rays go.
-    fn parts(self) -> ([f32; 3], bool) {
-        match self {
-            Self::Origin(point) => (point, false),
-            Self::Target(point) => (point, true),
-        }
-    }
-
     /// The same point, in the space of an instance.
     pub(super) fn in_space_of(self, to_world: &Transform) -> Self {
         let inside = |p: [f32; 3]| to_world.inverted().point(p.map(f64::from)).map(|x| x as f32);
@@ -92,92 +84,49 @@ pub(super) struct Frustum {
     edge_pad: f32x8,
 }
 
-/// What the packets of a bundle have, by packet and over all.
-struct Gathered {
-    view: View,
-    is_target: bool,
-    /// Slopes `x / z`.
-    a: [f32x8; WIDTH],
-    /// Slopes `y / z`.
-    b: [f32x8; WIDTH],
-    /// Lengths of the directions along `z`.
-    along: [f32x8; WIDTH],
-    /// How far rays pass by the apex.
-    astray: f32x8,
-    /// Largest coordinates of origins.
-    far: Vec3<f32x8>,
-}
-
-impl Gathered {
-    #[inline(always)]
-    fn new(view: View, is_target: bool) -> Self {
-        let zero = [f32x8::ZERO; WIDTH];
-        let along = [f32x8::ONE; WIDTH];
-        Self { view, is_target, a: zero, b: zero, along, astray: f32x8::ZERO, far: Vec3::zero() }
-    }
-
-    /// Adds packet `j`; `None` if its rays do not go along the view.
-    #[inline(always)]
-    fn add<T: Tier>(&mut self, j: usize, rays: &RayLanes<T::Wide>) -> Option<()> {
-        let (asked, apex) = (asked::<T>(rays), self.view.apex);
-        if asked & !rays.t_min.ge(T::Wide::zero()).bits() != 0 {
-            return None;
-        }
-        let seen = self.view.direction(from_apex::<T>(rays, apex, self.is_target));
-        (self.a[j], self.b[j], self.along[j]) = slopes(seen, asked)?;
-        let origin = narrow::<T>(rays.origin);
-        let by = match self.is_target {
-            true => passes_by::<T>(rays, &self.view, seen),
-            false => (origin - Vec3::splat(apex)).abs().max_component(),
-        };
-        let by = Lane::select(by.ge(f32x8::ZERO), by, f32x8::splat(f32::INFINITY));
-        let asked = Mask::from_bits(asked);
-        self.astray = Lane::select(asked, Lane::max(self.astray, by), self.astray);
-        self.far = Vec3::select(asked, self.far.max(origin.abs()), self.far);
-        Some(())
-    }
-
-    /// The first of `count` packets stands in for those that are not there.
-    #[inline(always)]
-    fn fill_up(&mut self, count: usize) {
-        for j in count..WIDTH {
-            (self.a[j], self.b[j]) = (self.a[0], self.b[0]);
-        }
-    }
-
-    /// What roundoffs are relative to.
-    #[inline(always)]
-    fn size(&self, tree: TreeRoot) -> f32 {
-        let scale = greatest(tree.scale_for(self.far).max(self.far.max_component()));
-        self.view.apex.iter().fold(scale, |size, x| size.max(x.abs()))
-    }
-}
-
-/// The order of visits.
-fn octant(view: &View, all: &Slopes) -> usize {
-    let [x, y, z] = view.axes;
-    let backward = |s: [f32x8; 2]| usize::from(s[0].get(0) + s[1].get(0) < 0.0);
-    backward(all.a) << x | backward(all.b) << y | usize::from(view.backward) << z
-}
-
 impl Frustum {
     /// The pyramid around packets; `None` where they have no axis in common or go too far apart.
     ///
     /// **Needs:** one to eight packets.
-    #[inline(always)]
     pub(super) fn around<T: Tier>(packets: &[RayLanes<T::Wide>], apex: Apex, tree: TreeRoot) -> Option<Self> {
+        let (point, is_target) = match apex {
+            Apex::Origin(point) => (point, false),
+            Apex::Target(point) => (point, true),
+        };
         let first = packets.iter().find(|rays| asked::<T>(rays) != 0)?;
         let lead = asked::<T>(first).trailing_zeros() as usize;
-        let (point, is_target) = apex.parts();
         let view = View::along(from_apex::<T>(first, point, is_target).get(lead), point);
-        let mut gathered = Gathered::new(view, is_target);
+        let mut a = [f32x8::ZERO; WIDTH];
+        let (mut b, mut along) = (a, [f32x8::ONE; WIDTH]);
+        let (mut astray, mut far) = (f32x8::ZERO, Vec3::zero());
         for (j, rays) in packets.iter().enumerate() {
-            gathered.add::<T>(j, rays)?;
+            let asked = asked::<T>(rays);
+            if asked & !rays.t_min.ge(T::Wide::zero()).bits() != 0 {
+                return None;
+            }
+            let seen = view.direction(from_apex::<T>(rays, point, is_target));
+            (a[j], b[j], along[j]) = slopes(seen, asked)?;
+            let origin = narrow::<T>(rays.origin);
+            let by = match is_target {
+                true => passes_by::<T>(rays, &view, seen),
+                false => (origin - Vec3::splat(point)).abs().max_component(),
+            };
+            let by = Lane::select(by.ge(f32x8::ZERO), by, f32x8::splat(f32::INFINITY));
+            let asked = Mask::from_bits(asked);
+            astray = Lane::select(asked, Lane::max(astray, by), astray);
+            far = Vec3::select(asked, far.max(origin.abs()), far);
         }
-        gathered.fill_up(packets.len());
-        let size = gathered.size(tree);
-        let close = greatest(gathered.astray) <= size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32;
-        if close { Self::new(&gathered, 2.0 * size) } else { None }
+        for j in packets.len()..WIDTH {
+            (a[j], b[j]) = (a[0], b[0]);
+        }
+        let scale = greatest(tree.scale_for(far).max(far.max_component()));
+        let size = point.iter().fold(scale, |size, x| size.max(x.abs()));
+        let close = greatest(astray) <= size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32;
+        let packets = Slopes { a: range(a), b: range(b) };
+        if !close {
+            return None;
+        }
+        Self { view, is_target, along, ..Self::with(packets, 2.0 * size) }.oriented()
     }
 
     /// What the rays have in common.
@@ -186,36 +135,39 @@ impl Frustum {
         if self.is_target { Apex::Target(point) } else { Apex::Origin(point) }
     }
 
-    /// The pyramid in a scene of some size; `None` where coordinates are so large that a bound overflows.
-    #[inline(always)]
-    fn new(rays: &Gathered, size: f32) -> Option<Self> {
+    /// The pyramid of some slopes, in a scene of some size.
+    fn with(packets: Slopes, size: f32) -> Self {
         let whole = |s: [f32x8; 2]| [f32x8::splat(least(s[0])), f32x8::splat(greatest(s[1]))];
         let pad = |roundoffs: f64| f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32);
-        let edge_pad = pad(EDGE_ROUNDOFFS);
-        if !edge_pad.get(0).is_finite() {
-            return None;
-        }
-        let packets = Slopes { a: range(rays.a), b: range(rays.b) };
         let all = Slopes { a: whole(packets.a), b: whole(packets.b) };
         let half = f32x8::splat(0.5);
         let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
         let all_about_middle = all.about(middle);
-        Some(Self {
-            view: rays.view,
-            is_target: rays.is_target,
-            octant: octant(&rays.view, &all),
+        Self {
+            view: View { axes: [0, 1, 2], backward: false, apex: [0.0; 3] },
+            is_target: false,
+            octant: 0,
             all,
             packets,
             middle,
             all_about_middle,
             packets_about_middle: packets.about(middle),
             spread: all_about_middle.greatest(),
-            along: rays.along,
+            along: [f32x8::ONE; WIDTH],
             packet_reach: [f32::NEG_INFINITY; WIDTH],
             reach: f32::NEG_INFINITY,
             side_pad: pad(SIDE_ROUNDOFFS),
-            edge_pad,
-        })
+            edge_pad: pad(EDGE_ROUNDOFFS),
+        }
+    }
+
+    /// With the order of visits; `None` where coordinates are so large that a bound overflows.
+    fn oriented(mut self) -> Option<Self> {
+        let [x, y, z] = self.view.axes;
+        let backward = |s: [f32x8; 2]| usize::from(s[0].get(0) + s[1].get(0) < 0.0);
+        self.octant =
+            backward(self.all.a) << x | backward(self.all.b) << y | usize::from(self.view.backward) << z;
+        self.edge_pad.get(0).is_finite().then_some(self)
     }
 
     /// Takes note that the rays of packet `j` need nothing at or beyond `limit`; [`Frustum::update_reach`] must follow.
