@@ -74,6 +74,9 @@ impl fmt::Display for Law {
                 let sign = if a_doubling < 0.0 { '-' } else { '+' };
                 write!(f, "{start:.3} {sign} {:.3} log2 n", a_doubling.abs())
             }
+            Self::Power { factor, exponent } if (0.1..1e4).contains(&factor) => {
+                write!(f, "{factor:.2} n^{exponent:.3}")
+            }
             Self::Power { factor, exponent } => write!(f, "{factor:.3e} n^{exponent:.3}"),
         }
     }
@@ -131,7 +134,7 @@ mod tests {
         for (point, expected) in points.iter().zip(expected) {
             assert!(close(law.deviation(point), expected), "{point:?}: {}", law.deviation(point));
         }
-        assert_eq!(law.to_string(), "7.071e-1 n^0.750");
+        assert_eq!(law.to_string(), "0.71 n^0.750");
     }
 
     /// By hand: over x = 0, 1 and twice 1 with costs 1, 2, 1 the weights are 1, 1/4 and 1, so the line goes through 1 and
@@ -152,6 +155,6 @@ mod tests {
     #[test]
     fn costs_that_fall_are_said_so() {
         assert_eq!(Law::logarithm(&points(|n| 100.0 - n.log2())).to_string(), "100.000 - 1.000 log2 n");
-        assert_eq!(Law::power(&points(|n| 100.0 / n)).to_string(), "1.000e2 n^-1.000");
+        assert_eq!(Law::power(&points(|n| 100.0 / n)).to_string(), "100.00 n^-1.000");
     }
 }

@@ -6,7 +6,7 @@ use plotters::coord::Shift;
 use plotters::prelude::*;
 
 use super::{Curve, Quantity, Scaling};
-use crate::measure::plot::{Chart, chart, legend, range};
+use crate::measure::plot::{Chart, chart, decades, legend, range};
 
 /// Width and height of the plot in units of SVG, and the height of the upper part.
 const SIZE: (u32, u32) = (860, 900);
@@ -49,7 +49,7 @@ fn panel(
 ) -> Result<(), Box<dyn Error>> {
     let points = || curves.iter().flat_map(|curve| &curve.points);
     let sizes = range(points().map(|p| p.primitives as f64));
-    let mut chart = chart(area, ["primitives", name], [sizes, range(points().map(|p| p.cost))])?;
+    let mut chart = chart(area, ["primitives", name], [sizes, decades(points().map(|p| p.cost))])?;
     for (curve, color) in curves.iter().zip(COLORS.iter().cycle()) {
         draw(&mut chart, curve, *color)?;
     }

@@ -69,14 +69,13 @@ fn known_laws_are_found_in_a_report() {
     assert!(curve(2).points.is_sorted_by_key(|point| point.primitives));
 }
 
-/// A cliff at the largest size is what is farthest from the law.
+/// A cliff shows in what no law explains and in the step where it is.
 #[test]
 fn a_cliff_is_named() {
     let mut cliff = known();
     cliff.scenes[3].classes[0] = class("primary", 200.0);
     let curve = Scaling::of(&cliff).unwrap().curves.remove(2);
-    assert_eq!(curve.farthest, Point { primitives: 1 << 25, cost: 200.0 });
-    assert!(curve.deviation > 0.2, "{}", curve.deviation);
+    assert!(curve.deviation.abs() > 0.2, "{}", curve.deviation);
     assert_eq!([curve.steepest.from, curve.steepest.to], [1 << 20, 1 << 25]);
     assert!((curve.steepest.exponent - (200.0_f64 / 50.0).log2() / 5.0).abs() < 1e-9);
 }
