@@ -44,7 +44,11 @@ pub(super) fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
 /// The whole powers of ten around values: an axis over less than one would have no numbers.
 pub(super) fn decades(values: impl Iterator<Item = f64>) -> Range<f64> {
     let (low, high) = values.fold((f64::INFINITY, 0.0f64), |(low, high), x| (low.min(x), high.max(x)));
-    if low > high { 0.1..1.0 } else { 10.0_f64.powf(low.log10().floor())..10.0_f64.powf(high.log10().ceil()) }
+    if low > high {
+        0.1..1.0
+    } else {
+        10.0_f64.powf(low.log10().floor())..10.0_f64.powf(high.log10().floor() + 1.0)
+    }
 }
 
 /// A number as short as it can be said.
