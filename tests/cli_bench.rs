@@ -174,3 +174,34 @@ mod peers {
         }
     }
 }
+
+#[test]
+fn costs_over_size_are_fitted_and_drawn() {
+    let folder = tempfile::tempdir().unwrap();
+    let (plot, json) = (folder.path().join("size.svg"), folder.path().join("size.json"));
+    let scenes = ["terrain:200", "terrain:800", "terrain:3200"];
+    let wanted = ["--classes", "primary", "--plot", path(&plot), "--json", path(&json)];
+    let table = stdout_of(&[&scenes[..], &wanted].concat());
+    for name in ["build", "memory", "primary"] {
+        let law = |line: &&str| line.starts_with(name) && (line.contains("n^") || line.contains("log2 n"));
+        assert!(table.lines().any(|line| law(&line)), "{name} in\n{table}");
+    }
+    let report: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(&json).unwrap()).unwrap();
+    let points = report["scaling"]["curves"][1]["points"].as_array().unwrap();
+    let stored = &report["scenes"][2]["builds"][0]["bytes_a_prim"];
+    assert!(points.len() == 3 && points[2]["cost"] == *stored, "{points:?}");
+    let svg = std::fs::read_to_string(&plot).unwrap();
+    assert_eq!(roxmltree::Document::parse(&svg).unwrap().root_element().tag_name().name(), "svg");
+}
+
+/// Two scenes are refused at once; three of two sizes once that is known, with all that was measured kept.
+#[test]
+fn too_few_sizes_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let (plot, json) = (folder.path().join("size.svg"), folder.path().join("size.json"));
+    let wanted = ["--classes", "primary", "--plot", path(&plot), "--json", path(&json)];
+    let few = stderr_of(&[&["terrain:200", "terrain:800"], &wanted[..]].concat(), 2);
+    assert!(few.contains("at least 3") && few.contains("found 2") && !json.exists(), "{few}");
+    let same = stderr_of(&[&["terrain:200", "terrain:800", "terrain:200"], &wanted[..]].concat(), 2);
+    assert!(same.contains("found 2") && json.exists() && !plot.exists(), "{same}");
+}

@@ -1,13 +1,16 @@
 //! From the columns of a scene to its trees: one for the world, one for each group that an instance shows.
 
 use super::block::{CylinderBlock, SphereBlock, TriangleBlock};
-use super::build::{BuildPrimitive, Cuttable, KINDS, MAX_DEPTH, Quality, Tree, build};
+use super::build::{BLOCK_BYTES, BuildPrimitive, Cuttable, KINDS, MAX_DEPTH, Quality, Tree, build};
 use super::instance::{PlacedTree, Placement, TreeRoot};
 use super::{Accel, BuiltGroup};
 use crate::geometry::{Geometry, Group, Instance, Triangles, row3};
 use crate::intersect::PrimKind;
 use crate::math::{Aabb, WIDTH};
 use rayon::prelude::*;
+
+// What the builder bounds memory by.
+const _: () = assert!(size_of::<TriangleBlock>() == BLOCK_BYTES[PrimKind::Triangle as usize]);
 
 /// A tree with what its primitive numbers mean.
 struct GroupTree {

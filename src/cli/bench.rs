@@ -1,6 +1,8 @@
-//! `octray bench`: rays a second of scenes, here and in other ray tracers.
+//! `octray bench`: rays a second of scenes, here and in other ray tracers, and how costs grow with size.
 
-use std::path::PathBuf;
+mod peers;
+
+use std::path::{Path, PathBuf};
 
 use clap::ValueHint;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
@@ -11,12 +13,12 @@ use super::error::{CliError, Exit};
 use super::source::SceneSource;
 use super::stdio::{print, say};
 use super::{pipeline, simd};
-use crate::intersect::TierName;
 use crate::measure::bench::{
-    Baseline, BaselineError, Class, Counters, Options, PeerScene, Report, SceneReport, Settings, Subject,
-    View, bench_scene, box_tests_a_second, comparison_table, table,
+    Baseline, BaselineError, Class, Counters, Options, Report, Scaling, SceneReport, Settings, Subject,
+    TooFewSizes, View, bench_scene, box_tests_a_second, comparison_table, scaling_plot, table,
 };
 use crate::output;
+use peers::Peers;
 
 /// What is measured when no scene is named.
 const SCENES: [&str; 3] = ["terrain:200000", "instances", "spheres"];
@@ -55,6 +57,10 @@ pub struct BenchArgs {
     /// Write everything that was measured to this file
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub json: Option<PathBuf>,
+    /// Fit laws to what building, memory and rays cost over the number of primitives, for three scenes of different sizes
+    /// or more, and draw them to this SVG file
+    #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
+    pub plot: Option<PathBuf>,
     /// Compare with a file that --json wrote; exit 4 if a class of rays became slower by more than the noise
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
     pub baseline: Option<PathBuf>,
@@ -69,19 +75,39 @@ pub struct BenchArgs {
 
 /// Measures as `args` say.
 pub fn run(args: &BenchArgs) -> Result<(), CliError> {
-    if let Some(path) = &args.json {
+    for path in args.json.iter().chain(&args.plot) {
         output::check_writable(path)?;
+    }
+    if args.plot.is_some() {
+        Scaling::expects(scenes(args).len()).map_err(too_few)?;
     }
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose().map_err(unusable)?;
     let pool = pool(usize::from(args.threads))?;
     let peers = Peers::open(args)?;
     announce(&pool);
-    let report = measure(args, &pool, &peers)?;
+    let mut report = measure(args, &pool, &peers)?;
     print(table(&report).as_bytes())?;
+    let drawn = args.plot.as_deref().map_or(Ok(()), |path| scale(&mut report, path));
     if let Some(path) = &args.json {
         output::write_atomically(path, to_json(&report)?.as_bytes())?;
     }
+    // What was measured is kept, whatever it was not good for.
+    drawn?;
     baseline.map_or(Ok(()), |baseline| compare(&baseline, &report))
+}
+
+/// Adds laws to the report, prints and draws them.
+fn scale(report: &mut Report, path: &Path) -> Result<(), CliError> {
+    let scaling = Scaling::of(report).map_err(too_few)?;
+    print(format!("\n{}", scaling.table()).as_bytes())?;
+    let svg = scaling_plot(&scaling)
+        .map_err(|error| CliError::new(Exit::Failed, "no plot can be drawn").because(error.to_string()))?;
+    report.scaling = Some(scaling);
+    Ok(output::write_atomically(path, svg.as_bytes())?)
+}
+
+fn too_few(error: TooFewSizes) -> CliError {
+    CliError::new(Exit::Usage, "--plot has too few sizes").because(error)
 }
 
 fn pool(threads: usize) -> Result<ThreadPool, CliError> {
@@ -109,12 +135,8 @@ fn measure(args: &BenchArgs, pool: &ThreadPool, peers: &Peers) -> Result<Report,
         runs: usize::from(args.runs),
         peak_box_tests_s: pool.install(box_tests_a_second),
     };
-    let scenes = match args.scenes.is_empty() {
-        true => SCENES.map(String::from).to_vec(),
-        false => args.scenes.clone(),
-    };
     let scenes: Result<_, CliError> =
-        scenes.iter().map(|text| scene(text, args.view, &options, pool, peers)).collect();
+        scenes(args).iter().map(|text| scene(text, args.view, &options, pool, peers)).collect();
     Ok(Report {
         octray: simd::VERSION.into(),
         settings: Settings {
@@ -125,7 +147,13 @@ fn measure(args: &BenchArgs, pool: &ThreadPool, peers: &Peers) -> Result<Report,
         },
         peak_box_tests_s: options.peak_box_tests_s,
         scenes: scenes?,
+        scaling: None,
     })
+}
+
+/// The scenes that were named, or the usual ones.
+fn scenes(args: &BenchArgs) -> Vec<String> {
+    if args.scenes.is_empty() { SCENES.map(String::from).to_vec() } else { args.scenes.clone() }
 }
 
 fn scene(
@@ -181,46 +209,6 @@ fn unusable(error: BaselineError) -> CliError {
         _ => Exit::Usage,
     };
     CliError::of(exit, error)
-}
-
-/// The other ray tracers, if any were asked for.
-#[cfg(feature = "peers")]
-struct Peers(Option<crate::measure::peers::Peers>);
-
-#[cfg(feature = "peers")]
-impl Peers {
-    fn open(args: &BenchArgs) -> Result<Self, CliError> {
-        if args.peers.is_empty() {
-            return Ok(Self(None));
-        }
-        let path = args.embree.clone().or_else(|| std::env::var_os("OCTRAY_EMBREE").map(PathBuf::from));
-        let is_wanted = args.peers.iter().any(|name| name == PEERS[0]);
-        if is_wanted && path.is_none() {
-            say(
-                "without Embree: name its library or its folder by --embree or by the variable OCTRAY_EMBREE",
-            );
-        }
-        let peers = crate::measure::peers::Peers::open(path.as_deref().filter(|_| is_wanted), &args.peers);
-        peers.map(|peers| Self(Some(peers))).map_err(|error| CliError::of(Exit::Failed, error))
-    }
-    fn scenes(&self, subject: &Subject, tier: TierName, threads: usize) -> Vec<PeerScene> {
-        self.0.as_ref().map_or(Vec::new(), |peers| peers.scenes(subject, tier, threads, &say))
-    }
-}
-
-/// No other ray tracers in this build.
-#[cfg(not(feature = "peers"))]
-struct Peers;
-
-#[cfg(not(feature = "peers"))]
-impl Peers {
-    fn open(args: &BenchArgs) -> Result<Self, CliError> {
-        let missing = "this octray was built without other ray tracers: build it with --features peers";
-        if !args.peers.is_empty() { Err(CliError::new(Exit::Usage, missing)) } else { Ok(Self) }
-    }
-    fn scenes(&self, _: &Subject, _: TierName, _: usize) -> Vec<PeerScene> {
-        Vec::new()
-    }
 }
 
 #[cfg(test)]

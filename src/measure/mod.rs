@@ -5,5 +5,6 @@ pub mod bench;
 pub mod compare;
 #[cfg(feature = "peers")]
 pub mod peers;
+mod plot;
 pub mod tradeoff;
 pub mod verify;

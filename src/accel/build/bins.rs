@@ -162,14 +162,21 @@ fn join_sides<const BINS: usize>(mut a: [Side; BINS], b: [Side; BINS]) -> [Side;
 }
 
 fn best_on<const BINS: usize>(axis: usize, sides: &[Side; BINS]) -> Option<Cut> {
+    let rights = right_sides(sides);
     let mut left = Side::EMPTY;
     let mut best = Cut { axis, bin: 0, cost: f64::INFINITY, larger_side: u32::MAX };
-    for (bin, (right_cost, right_count)) in right_sides(sides).into_iter().enumerate().skip(1) {
-        left.add(sides[bin - 1]);
-        if left.count != 0 && right_count != 0 {
-            let cost = left.cost() + right_cost;
-            best = best.better(Cut { axis, bin, cost, larger_side: left.count.max(right_count) });
+    for bin in 1..BINS {
+        // After an empty bin the cut is the one before it again.
+        if sides[bin - 1].count == 0 {
+            continue;
         }
+        left.add(sides[bin - 1]);
+        let (right_cost, right_count) = rights[bin];
+        if right_count == 0 {
+            break;
+        }
+        let cost = left.cost() + right_cost;
+        best = best.better(Cut { axis, bin, cost, larger_side: left.count.max(right_count) });
     }
     (best.bin != 0).then_some(best)
 }
@@ -178,9 +185,13 @@ fn best_on<const BINS: usize>(axis: usize, sides: &[Side; BINS]) -> Option<Cut> 
 fn right_sides<const BINS: usize>(sides: &[Side; BINS]) -> [(f64, u32); BINS] {
     let mut rights = [(0.0, 0); BINS];
     let mut right = Side::EMPTY;
+    let mut last = (0.0, 0);
     for bin in (1..BINS).rev() {
-        right.add(sides[bin]);
-        rights[bin] = (right.cost(), right.count);
+        if sides[bin].count != 0 {
+            right.add(sides[bin]);
+            last = (right.cost(), right.count);
+        }
+        rights[bin] = last;
     }
     rights
 }

@@ -4,7 +4,8 @@
 //! 2. `bins`, `split`, `binary`: a binary tree by the binned surface area heuristic, leaves up to eight of a kind, instances
 //!    one by one.
 //!    `slab`, `spatial`, `cut`: for [`Quality::High`] also by planes that cut triangles.
-//! 3. `plan`, `collapse`: binary nodes become wide nodes and leaves, at the least expected cost.
+//! 3. `plan`, `collapse`: binary nodes become wide nodes and leaves, at the least expected cost; `price`: within bounded
+//!    memory.
 //! 4. `octant`: children take the slots that make `slot ^ octant` the order of visits.
 //!
 //! The tree is a function of the input alone: how many threads built it leaves no trace.
@@ -16,6 +17,7 @@ mod cut;
 mod item;
 mod octant;
 mod plan;
+mod price;
 mod slab;
 mod spatial;
 mod split;
@@ -48,6 +50,12 @@ pub const BLOCK_CYCLES: f64 = 32.0;
 
 /// Values of the kind of a [`ChildRef`].
 pub const KINDS: usize = 8;
+
+/// Bytes of a node: with [`BLOCK_BYTES`] what a tree's memory is bounded by.
+pub const NODE_BYTES: usize = size_of::<Node8>();
+/// Bytes of a leaf block by kind, where they count: triangles alone. Fuller leaves of spheres and cylinders cost rays up to
+/// 20%, for testing one of those takes longer than fetching it.
+pub const BLOCK_BYTES: [usize; KINDS] = [0, 320, 0, 0, 0, 0, 0, 0];
 
 /// How much work goes into a tree. It changes time and memory, never hits.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
@@ -151,7 +159,7 @@ pub fn build(primitives: &[BuildPrimitive], quality: Quality, triangles: &impl C
     };
     let Some(root) = nodes.first() else { return empty() };
     let bounds = root.bounds;
-    let plans = plan::plans(&nodes, &items);
+    let plans = price::affordable_plans(&nodes, &items, primitives.len());
     let source = Source { nodes: &nodes, plans: &plans, items: &items };
     let Fragment { nodes, leaves, depth } = collapse(source, 0);
     let mut leaves = leaves.concat();

@@ -6,7 +6,7 @@
 
 use super::binary::BinaryNode;
 use super::item::{GRAIN, Item};
-use super::{BLOCK_CYCLES, LEAF_SIZE, NODE_CYCLES, SOLITARY, half_area};
+use super::{BLOCK_BYTES, BLOCK_CYCLES, LEAF_SIZE, NODE_BYTES, NODE_CYCLES, SOLITARY, half_area};
 use crate::math::WIDTH;
 
 /// Most roots that a subtree contributes to the node above, whose other child has at least one.
@@ -35,18 +35,29 @@ impl Plan {
         self.left[0] == 0
     }
 
-    fn of_leaf(area: f32, kind: u8) -> Self {
-        Self { cost: [BLOCK_CYCLES as f32 * area; ROOTS], left: [0; ROOTS], kind }
+    /// Bytes of the block of a leaf, where they count.
+    pub(super) fn block_bytes(&self) -> usize {
+        BLOCK_BYTES[usize::from(self.kind)]
     }
 
-    fn of_inner(area: f32, len: u32, a: &Self, b: &Self) -> Self {
+    /// Cycles that the subtree as one leaf or one node costs a ray that meets the whole tree, bytes at their price.
+    pub(super) fn least_cost(&self) -> f32 {
+        self.cost[0]
+    }
+
+    fn of_leaf(area: f32, price: f32, kind: u8) -> Self {
+        Self { cost: [block_cost(area, price, kind); ROOTS], left: [0; ROOTS], kind }
+    }
+
+    fn of_inner(area: f32, price: f32, len: u32, [a, b]: [&Self; 2]) -> Self {
         let mut plan = Self::UNKNOWN;
         let (below, from_left) = share(a, b, WIDTH);
-        (plan.cost[0], plan.left[0]) = (NODE_CYCLES as f32 * area + below, from_left);
+        let node = NODE_CYCLES as f32 * area + NODE_BYTES as f32 * price;
+        (plan.cost[0], plan.left[0]) = (node + below, from_left);
         if a.kind == b.kind && a.kind != SOLITARY && len as usize <= LEAF_SIZE {
             plan.kind = a.kind;
         }
-        let block = BLOCK_CYCLES as f32 * area;
+        let block = block_cost(area, price, plan.kind);
         if plan.kind != 0 && block <= plan.cost[0] {
             (plan.cost[0], plan.left[0]) = (block, 0);
         }
@@ -57,6 +68,10 @@ impl Plan {
         }
         plan
     }
+}
+
+fn block_cost(area: f32, price: f32, kind: u8) -> f32 {
+    BLOCK_CYCLES as f32 * area + BLOCK_BYTES[usize::from(kind)] as f32 * price
 }
 
 /// Least cost of two subtrees that share `roots` roots, and how many of them the first takes.
@@ -70,37 +85,50 @@ fn share(a: &Plan, b: &Plan, roots: usize) -> (f32, u8) {
     best
 }
 
-/// The plans of all binary nodes.
-pub(super) fn plans(nodes: &[BinaryNode], items: &[Item]) -> Vec<Plan> {
+/// What plans are made of.
+struct Solver<'a> {
+    nodes: &'a [BinaryNode],
+    items: &'a [Item],
+    /// Half the area of the whole tree.
+    whole: f64,
+    price: f32,
+}
+
+/// The plans of all binary nodes where a byte costs a ray as much as so many cycles.
+pub(super) fn plans(nodes: &[BinaryNode], items: &[Item], price: f32) -> Vec<Plan> {
     let mut plans = vec![Plan::UNKNOWN; nodes.len()];
     if let Some(root) = nodes.first() {
-        solve(nodes, items, half_area(&root.bounds), &mut plans);
+        Solver { nodes, items, whole: half_area(&root.bounds), price }.solve(&mut plans);
     }
     plans
 }
 
-/// Plans of one subtree, children before parents; the halves of large subtrees in parallel.
-fn solve(nodes: &[BinaryNode], items: &[Item], whole: f64, plans: &mut [Plan]) {
-    let right = nodes[0].right as usize;
-    if nodes.len() <= GRAIN || right == 0 {
-        return (0..nodes.len()).rev().for_each(|at| solve_node(nodes, items, whole, plans, at));
+impl Solver<'_> {
+    /// Plans of one subtree, children before parents; the halves of large subtrees in parallel.
+    fn solve(&self, plans: &mut [Plan]) {
+        let right = self.nodes[0].right as usize;
+        if self.nodes.len() <= GRAIN || right == 0 {
+            return (0..self.nodes.len()).rev().for_each(|at| self.solve_node(plans, at));
+        }
+        let (left_plans, right_plans) = plans[1..].split_at_mut(right - 1);
+        let of = |nodes| Solver { nodes, ..*self };
+        rayon::join(
+            || of(&self.nodes[1..right]).solve(left_plans),
+            || of(&self.nodes[right..]).solve(right_plans),
+        );
+        self.solve_node(plans, 0);
     }
-    let (left_plans, right_plans) = plans[1..].split_at_mut(right - 1);
-    rayon::join(
-        || solve(&nodes[1..right], items, whole, left_plans),
-        || solve(&nodes[right..], items, whole, right_plans),
-    );
-    solve_node(nodes, items, whole, plans, 0);
-}
 
-fn solve_node(nodes: &[BinaryNode], items: &[Item], whole: f64, plans: &mut [Plan], at: usize) {
-    let node = &nodes[at];
-    let area = (half_area(&node.bounds) / whole).max(LEAST_AREA) as f32;
-    plans[at] = if node.right == 0 {
-        Plan::of_leaf(area, items[node.first as usize].kind())
-    } else {
-        Plan::of_inner(area, node.len, &plans[at + 1], &plans[at + node.right as usize])
-    };
+    fn solve_node(&self, plans: &mut [Plan], at: usize) {
+        let node = &self.nodes[at];
+        let area = (half_area(&node.bounds) / self.whole).max(LEAST_AREA) as f32;
+        plans[at] = if node.right == 0 {
+            Plan::of_leaf(area, self.price, self.items[node.first as usize].kind())
+        } else {
+            let below = [&plans[at + 1], &plans[at + node.right as usize]];
+            Plan::of_inner(area, self.price, node.len, below)
+        };
+    }
 }
 
 /// The binary nodes that become the children of one wide node.

@@ -1,6 +1,7 @@
 //! Whole trees: hard inputs, random inputs, and the same bytes for any number of threads.
 
 mod hard;
+mod memory;
 mod parts;
 
 use proptest::prelude::*;

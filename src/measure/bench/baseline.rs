@@ -208,6 +208,7 @@ mod tests {
             settings: Settings { tier: "watertight".into(), threads: 1, size: [8, 8], runs: 3 },
             peak_box_tests_s: 1e9,
             scenes: vec![scene],
+            scaling: None,
         }
     }
 

@@ -15,6 +15,7 @@ mod rays;
 mod report;
 mod roofline;
 mod run;
+mod scaling;
 mod subject;
 mod table;
 #[cfg(test)]
@@ -33,7 +34,10 @@ pub use rays::{HitColumns, Hits, NO_HIT, RayColumns, RaySet};
 pub use report::{BuildReport, ClassReport, EngineReport, Report, SceneReport, Settings};
 pub use roofline::box_tests_a_second;
 pub use run::{BenchError, Options, PeerScene, bench_scene};
+pub use scaling::{Curve, Law, Point, Quantity, Scaling, Step, TooFewSizes, scaling_plot};
 pub use subject::{Subject, Target, View};
 pub(super) use table::aligned;
 pub use table::table;
 pub use timing::Spread;
+#[cfg(feature = "peers")]
+pub(super) use timing::timed;

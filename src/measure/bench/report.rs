@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::census::Visits;
 use super::check::Difference;
 use super::counters::CounterReading;
+use super::scaling::Scaling;
 use super::timing::Spread;
 
 /// Everything that was measured.
@@ -19,6 +20,9 @@ pub struct Report {
     pub peak_box_tests_s: f64,
     /// Scenes in the order in which they were given.
     pub scenes: Vec<SceneReport>,
+    /// How costs grow with the number of primitives, where that was asked for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub scaling: Option<Scaling>,
 }
 
 /// What was asked for; reports compare only where these are equal.
@@ -61,7 +65,7 @@ pub struct BuildReport {
     pub engine: String,
     /// How it built.
     pub mode: String,
-    /// Wall time.
+    /// CPU time where one thread builds, else wall time.
     pub seconds: f64,
     /// Millions of primitives a second.
     pub mprims_s: f64,
@@ -157,6 +161,16 @@ impl Report {
         for engine in classes.flat_map(|class| class.engines.iter().skip(1)) {
             if !names.contains(&engine.engine.as_str()) {
                 names.push(&engine.engine);
+            }
+        }
+        names
+    }
+    /// Names of the classes of rays, each once.
+    pub fn classes(&self) -> Vec<&str> {
+        let mut names: Vec<&str> = Vec::new();
+        for class in self.scenes.iter().flat_map(|scene| &scene.classes) {
+            if !names.contains(&class.class.as_str()) {
+                names.push(&class.class);
             }
         }
         names

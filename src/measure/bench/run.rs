@@ -75,7 +75,7 @@ pub fn bench_scene(
 }
 
 fn own_build(subject: &Subject) -> BuildReport {
-    let (seconds, bytes) = (subject.build_time.as_secs_f64(), subject.tree_bytes() as f64);
+    let (seconds, bytes) = (subject.build_s, subject.tree_bytes() as f64);
     BuildReport::new("octray", "default", subject.primitive_count(), seconds, Some(bytes))
 }
 

@@ -3,8 +3,8 @@
 use std::fmt;
 use std::str::FromStr;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
 
+use super::timing::timed;
 use crate::accel::Accel;
 use crate::geometry::{Geometry, Instance, Planes};
 use crate::intersect::PrimKind;
@@ -66,8 +66,9 @@ pub struct Subject {
     pub geometry: Geometry,
     /// Its tree.
     pub accel: Accel,
-    /// How long building it took, by the threads of the rayon pool that [`Subject::new`] was called in.
-    pub build_time: Duration,
+    /// Seconds that building it took the rayon pool that [`Subject::new`] was called in: CPU time of one thread, wall time
+    /// of several.
+    pub build_s: f64,
     /// The camera.
     pub camera: Camera,
     /// Where shadow rays go.
@@ -86,9 +87,7 @@ impl Subject {
         let mut geometry = Arc::unwrap_or_clone(geometry);
         geometry.planes = Planes::default();
         scale(&mut geometry, factor as f32);
-        let start = Instant::now();
-        let accel = Accel::build(&geometry);
-        let build_time = start.elapsed();
+        let (accel, build_s) = timed(rayon::current_num_threads(), || Accel::build(&geometry));
         let bounds = accel.bounds();
         let aspect = length(camera.right) / length(camera.up);
         let (camera, light) = match view {
@@ -98,7 +97,7 @@ impl Subject {
             }
             View::Inside => (camera_inside(&bounds, aspect), Target::Point(within(&bounds, [0.5, 0.8, 0.5]))),
         };
-        Some(Self { name, view, geometry, accel, build_time, camera, light })
+        Some(Self { name, view, geometry, accel, build_s, camera, light })
     }
 
     /// Length of the diagonal of the bounds.

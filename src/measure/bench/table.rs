@@ -97,12 +97,6 @@ impl<'a> Peer<'a> {
 /// Geometric means over the scenes, a class a row.
 fn mean_rows(report: &Report, peers: &[Peer<'_>]) -> Vec<Row> {
     let classes: Vec<&ClassReport> = report.scenes.iter().flat_map(|scene| &scene.classes).collect();
-    let mut names: Vec<&str> = Vec::new();
-    for class in &classes {
-        if !names.contains(&class.class.as_str()) {
-            names.push(&class.class);
-        }
-    }
     let row = |name: &&str| {
         let of: Vec<&ClassReport> = classes.iter().copied().filter(|class| class.class == *name).collect();
         let rate = geometric_mean(of.iter().filter_map(|c| Some(c.octray()?.mrays_s.median)));
@@ -112,7 +106,7 @@ fn mean_rows(report: &Report, peers: &[Peer<'_>]) -> Vec<Row> {
         row.extend(peers.iter().flat_map(|peer| peer.means(&of)));
         row
     };
-    if report.scenes.len() < 2 { Vec::new() } else { names.iter().map(row).collect() }
+    if report.scenes.len() < 2 { Vec::new() } else { report.classes().iter().map(row).collect() }
 }
 
 /// `None` of nothing.

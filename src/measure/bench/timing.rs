@@ -33,12 +33,18 @@ impl Spread {
 /// Seconds that `work` takes: CPU time of this thread, which others on the machine do not count into, or wall time where
 /// several threads work or the system has no such clock.
 pub(super) fn seconds(threads: usize, work: impl FnOnce()) -> f64 {
+    timed(threads, work).1
+}
+
+/// What `work` gives, and the seconds that it takes, as in [`seconds`].
+pub(in crate::measure) fn timed<R>(threads: usize, work: impl FnOnce() -> R) -> (R, f64) {
     let (wall, cpu) = (Instant::now(), thread_seconds());
-    work();
-    match (threads, cpu, thread_seconds()) {
+    let result = work();
+    let seconds = match (threads, cpu, thread_seconds()) {
         (1, Some(before), Some(after)) => after - before,
         _ => wall.elapsed().as_secs_f64(),
-    }
+    };
+    (result, seconds)
 }
 
 #[cfg(unix)]

@@ -43,7 +43,7 @@ fn one_centre_for_triangles_of_all_sizes() {
         let s = 1.0 + i as f32;
         [[-s, -s, -s], [s, s, -s], [0.0, 0.0, s]]
     };
-    assert!(depth(100_000, sized) <= 20);
+    assert!(depth(MILLION, sized) <= 20);
 }
 
 #[test]
@@ -59,7 +59,7 @@ fn one_huge_with_many_tiny() {
         [at, [at[0] + 1e-3, at[1], at[2]], [at[0], at[1] + 1e-3, at[2] + 1e-3]]
     };
     let huge = [[-1e30, 0.0, 0.0], [1e30, 1e30, 0.0], [0.0, -1e30, 1e30]];
-    assert!(depth(100_000, |i| if i == 77 { huge } else { tiny(i) }) <= 24);
+    assert!(depth(MILLION, |i| if i == 77 { huge } else { tiny(i) }) <= 24);
 }
 
 /// Every triangle crosses every other: cutting them all could go on for ever.

@@ -2,13 +2,12 @@
 
 use std::ffi::c_int;
 use std::ops::Range;
-use std::time::Instant;
 
 use super::ffi::{Buffer, Embree, Scene, SceneBuilder};
 use super::{NAME, layout};
 use crate::geometry::{Geometry, Group, row3};
 use crate::intersect::{PrimId, PrimKind};
-use crate::measure::bench::{BuildReport, NO_HIT, Subject};
+use crate::measure::bench::{BuildReport, NO_HIT, Subject, timed};
 
 /// How a scene is built.
 pub(super) struct Quality {
@@ -52,9 +51,9 @@ pub(super) fn build(
     let (g, device) = (&subject.geometry, embree.device(threads)?);
     let (mut seconds, mut bytes) = (0.0, 0);
     let mut commit = |builder: SceneBuilder<'_>| -> Result<Scene, String> {
-        let start = Instant::now();
-        let (scene, taken) = builder.commit()?;
-        seconds += start.elapsed().as_secs_f64();
+        let (committed, taken_s) = timed(threads, || builder.commit());
+        let (scene, taken) = committed?;
+        seconds += taken_s;
         bytes += taken;
         Ok(scene)
     };
