@@ -110,7 +110,7 @@ fn greatest_row_sum(rows: [[f64; 4]; 3], size: f64) -> f64 {
 impl Accel {
     /// Rays in the space of an instance; `t` keeps its meaning, since directions keep their lengths' ratio.
     #[inline(always)]
-    pub(super) fn local_rays<L: Lane>(to_world: &Transform, ray: &RayLanes<L>) -> RayLanes<L> {
+    pub(crate) fn local_rays<L: Lane>(to_world: &Transform, ray: &RayLanes<L>) -> RayLanes<L> {
         let rows = to_world.inverse_rows().map(|r| r.map(L::Double::splat));
         let (o, d) = (ray.origin.widen(), ray.direction.widen());
         let linear = |[x, y, z, _]: [L::Double; 4], v: Vec3<L::Double>| x * v.x + y * v.y + z * v.z;

@@ -5,7 +5,7 @@
 
 use crate::geometry::{Geometry, gather, gather3};
 use crate::intersect::PrimKind;
-use crate::math::{Lane, Real, Transform, Vec3, WIDTH, eight, gamma_of, three};
+use crate::math::{Lane, Mask, Real, Transform, Vec3, WIDTH, eight, gamma_of, three};
 
 /// Hits as lanes.
 #[derive(Clone, Copy)]
@@ -83,16 +83,21 @@ impl<L: Lane> SurfaceLanes<L> {
 pub(crate) fn evaluate<L: Lane>(g: &Geometry, kind: PrimKind, hit: &HitLanes<L>) -> SurfaceLanes<L> {
     let hit = hit.widen();
     if g.instances.is_empty() || hit.instance == [0; WIDTH] {
-        return SurfaceLanes::narrow(evaluate_local(g, kind, &hit));
+        return SurfaceLanes::narrow(evaluate_local(g, kind, &hit).0);
     }
     let placed = Placement::gather(g, &hit.instance);
     let origin = placed.to_local.point(hit.origin);
     let local = HitLanes { origin, direction: placed.to_local.direction(hit.direction), ..hit };
-    SurfaceLanes::narrow(placed.to_world(evaluate_local(g, kind, &local)))
+    let (surface, size) = evaluate_local(g, kind, &local);
+    let seen_through = (0..WIDTH).map(|i| u32::from(hit.instance[i] != 0) << i).sum();
+    // Lanes without instance are what they are alone, to the bit.
+    let world = placed.to_world::<L>(&surface, size);
+    SurfaceLanes::narrow(SurfaceLanes::select(Mask::from_bits(seen_through), world, surface))
 }
 
+/// The surfaces, and the largest coordinates of their primitives.
 #[inline(always)]
-fn evaluate_local<D: Double>(g: &Geometry, kind: PrimKind, hit: &HitLanes<D>) -> SurfaceLanes<D> {
+fn evaluate_local<D: Double>(g: &Geometry, kind: PrimKind, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
     match kind {
         PrimKind::Triangle => triangle(g, hit),
         PrimKind::Sphere => sphere(g, hit),
@@ -105,7 +110,7 @@ fn evaluate_local<D: Double>(g: &Geometry, kind: PrimKind, hit: &HitLanes<D>) ->
 ///
 /// **Source:** Pharr, Jakob and Humphreys, 4th ed., 6.8.5: gamma(7) of the sum of magnitudes.
 #[inline(always)]
-fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> SurfaceLanes<D> {
+fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
     let t = &g.triangles;
     let vertex = three(|k| eight(|i| t.vertex[k][hit.row[i] as usize]));
     let [p0, p1, p2] = three(|k| gather3::<D>(&t.position, &vertex[k]));
@@ -121,7 +126,9 @@ fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> SurfaceLanes<D> {
         true => (hit.u, hit.v),
         false => (blend(&t.uv[0], &vertex, weights), blend(&t.uv[1], &vertex, weights)),
     };
-    SurfaceLanes { point: a + b + c, error: sizes * roundoffs(7), geometric_normal, shading_normal, uv }
+    let error = sizes * roundoffs(7);
+    let size = p0.abs().max(p1.abs()).max(p2.abs()).max_component();
+    (SurfaceLanes { point: a + b + c, error, geometric_normal, shading_normal, uv }, size)
 }
 
 /// A vertex column at barycentric weights.
@@ -144,17 +151,19 @@ fn smooth_normal<D: Double>([n0, n1, n2]: [Vec3<D>; 3], [w, u, v]: [D; 3], geome
 
 /// The point pulled back to the sphere along its radius.
 #[inline(always)]
-fn sphere<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> SurfaceLanes<D> {
+fn sphere<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
     let s = &g.spheres;
     let (center, radius) = (gather3::<D>(&s.center, &hit.row), gather::<D>(&s.radius, &hit.row));
     let normal = (hit.origin + hit.direction * hit.t - center).normalize();
-    SurfaceLanes {
+    let size = center.abs().max_component() + radius;
+    let surface = SurfaceLanes {
         point: center + normal * radius,
-        error: (center.abs().max_component() + radius) * roundoffs(8),
+        error: size * roundoffs(8),
         geometric_normal: normal,
         shading_normal: normal,
         uv: octahedral(normal),
-    }
+    };
+    (surface, size)
 }
 
 /// The unit sphere unfolded to the unit square: a texture map of arithmetic alone, where longitude and latitude would
@@ -174,7 +183,7 @@ fn octahedral<D: Double>(n: Vec3<D>) -> (D, D) {
 
 /// The point pulled back to the side along its radius, or to the cap along the axis.
 #[inline(always)]
-fn cylinder<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> SurfaceLanes<D> {
+fn cylinder<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
     let c = &g.cylinders;
     let (from, to) = (gather3::<D>(&c.from, &hit.row), gather3::<D>(&c.to, &hit.row));
     let radius = gather::<D>(&c.radius, &hit.row);
@@ -188,25 +197,27 @@ fn cylinder<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> SurfaceLanes<D> {
     let on_cap = raw - axis * (raw - cap).dot(axis);
     let normal = Vec3::select(is_side, outward, Vec3::select(at_to, axis, -axis));
     let size = from.abs().max(to.abs()).max_component() + radius;
-    SurfaceLanes {
+    let surface = SurfaceLanes {
         point: Vec3::select(is_side, from + along + outward * radius, on_cap),
         error: size * roundoffs(20),
         geometric_normal: normal,
         shading_normal: normal,
         uv: (hit.u, hit.v),
-    }
+    };
+    (surface, size)
 }
 
 /// The point pulled back to the plane along its normal.
 #[inline(always)]
-fn plane<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> SurfaceLanes<D> {
+fn plane<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
     let p = &g.planes;
     let (on, normal) = (gather3::<D>(&p.point, &hit.row), gather3::<D>(&p.normal, &hit.row).normalize());
     let raw = hit.origin + hit.direction * hit.t;
     let point = raw - normal * (raw - on).dot(normal);
     let size = point.abs().max_component() + on.abs().max_component();
     let uv = (point.x, point.z);
-    SurfaceLanes { point, error: size * roundoffs(12), geometric_normal: normal, shading_normal: normal, uv }
+    let error = size * roundoffs(12);
+    (SurfaceLanes { point, error, geometric_normal: normal, shading_normal: normal, uv }, size)
 }
 
 /// Rows of eight affine maps.
@@ -224,6 +235,12 @@ impl<D: Double> Maps<D> {
     fn point(&self, p: Vec3<D>) -> Vec3<D> {
         let [x, y, z] = self.0.each_ref().map(|r| r[3]);
         self.direction(p) + Vec3 { x, y, z }
+    }
+    /// The largest sum of magnitudes that makes a coordinate of the image of `p`: what its rounding is relative to.
+    fn sizes(&self, p: Vec3<D>) -> D {
+        let row = |r: &[D; 4]| (r[0] * p.x).abs() + (r[1] * p.y).abs() + (r[2] * p.z).abs() + r[3].abs();
+        let [x, y, z] = self.0.each_ref().map(row);
+        x.max(y).max(z)
     }
     /// The transposed linear part applied to `n`.
     fn transposed(&self, n: Vec3<D>) -> Vec3<D> {
@@ -256,15 +273,24 @@ impl<D: Double> Placement<D> {
         }
     }
 
-    /// Points by the transform, normals by its transposed inverse; the bound grows by the stretch.
-    fn to_world(&self, s: SurfaceLanes<D>) -> SurfaceLanes<D> {
+    /// Points by the transform, normals by its transposed inverse.
+    ///
+    /// The bound grows by the stretch, and so does what is lost between the spaces: on the way out and on the next ray's way
+    /// back in to sums of products that may cancel, and where that ray becomes numbers `L`. Its origin loses 1 roundoff of
+    /// `size` by that, the largest coordinate of the primitive, and its direction 2 over the primitive's length; 1 is slack.
+    fn to_world<L: Lane<Double = D>>(&self, s: &SurfaceLanes<D>, size: D) -> SurfaceLanes<D> {
         let point = self.to_world.point(s.point);
+        let sums = (self.to_local.sizes(point) + size) * roundoffs(8);
+        let narrowed = size * D::constant(gamma_of(4, <L::Scalar as Real>::ROUNDOFF));
         SurfaceLanes {
             point,
-            error: s.error * self.to_world.stretch() + point.abs().max_component() * roundoffs(8),
+            error: (s.error + sums + narrowed) * self.to_world.stretch(),
             geometric_normal: self.to_local.transposed(s.geometric_normal).normalize(),
             shading_normal: self.to_local.transposed(s.shading_normal).normalize(),
             uv: s.uv,
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

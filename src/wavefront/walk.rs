@@ -154,6 +154,27 @@ mod tests {
         steps
     }
 
+    /// A sheet seen from inside the glass, nearly along it, with normals that lean towards the ray: refracted about them it
+    /// would come back to the side that it is said to have left.
+    #[test]
+    fn a_sheet_whose_normals_bend_light_back_is_passed_once() {
+        let text = "[camera]\nposition = [0, 0, 9]\nlook_at = [0, 0, 0]\n[render]\nmin_throughput = 0\n\
+             [[material]]\nname = 'glass'\nkind = 'dielectric'\n\
+             [[mesh]]\nmaterial = 'glass'\nfaces = [[0, 1, 2]]\n\
+             vertices = [[-9, -9, 0], [0, 9, 0], [9, -9, 0]]\n";
+        let mut scene = Scene::compile(&crate::describe::parse(text, "test").unwrap()).unwrap();
+        let lean = [0.75f32.sqrt(), 0.0, -0.5];
+        std::sync::Arc::make_mut(&mut scene.geometry).triangles.normal = lean.map(|x| vec![x; 3]);
+        scene.requirements.shading_normals = true;
+        let mut steps = Vec::new();
+        let path = [[-5.0, 0.0, 0.5], [0.99f64.sqrt() as f32, 0.0, -0.1]].map(Vec3::splat);
+        walk::<Watertight>(&scene, &[path], 3, |_, step| {
+            steps.push(step);
+            true
+        });
+        assert_eq!(steps, [Step::Passed, Step::Out]);
+    }
+
     const ONE_AFTER_THE_OTHER: [(usize, bool); 4] = [(1, false), (1, true), (0, false), (0, true)];
 
     #[test]

@@ -41,6 +41,14 @@ fn towards(origin: [f32; 3], target: [f32; 3]) -> Ray {
     Ray::new(origin, std::array::from_fn(|k| target[k] - origin[k]))
 }
 
+/// From far away past a point between landmarks.
+pub(super) fn from_far_out(landmarks: &[[f32; 3]], dice: &mut Dice, away: f64, stray: f64) -> Ray {
+    let past = between(landmark(landmarks, dice), landmark(landmarks, dice), dice);
+    let aside = dice.point();
+    let target = std::array::from_fn(|k| past[k] + (stray * aside[k]) as f32);
+    towards(dice.heading().map(|x| (away * x) as f32), target)
+}
+
 fn anywhere(dice: &mut Dice) -> [f32; 3] {
     match dice.below(8) {
         0 => dice.point().map(|x| x as f32 * 1e4),

@@ -206,3 +206,27 @@ fn the_filter_of_cylinders_keeps_tangents_across_axes() {
     }
     assert!(counts.iter().all(|&n| n > 10_000), "{counts:?}");
 }
+
+/// From more radii away than `f32` has roundoffs in one, the filter lives by its slack alone.
+#[test]
+fn the_filter_of_cylinders_keeps_wires_from_far_away() {
+    let mut dice = Dice(6);
+    let mut counts = [0; 2];
+    for _ in 0..30_000 {
+        let radius = dice.magnitude(-3.0, 0.0).abs() as f32;
+        let away = f64::from(radius) * dice.magnitude(6.5, 9.0).abs();
+        let (axis, heading, share) = (dice.heading(), dice.heading(), dice.between(0.2, 0.8));
+        let to: [f32; 3] = axis.map(|x| (0.1 * away * x) as f32);
+        let target = to.map(|x| f64::from(x) * share);
+        let origin: [f32; 3] = std::array::from_fn(|k| (target[k] - away * heading[k]) as f32);
+        let r = ray(origin, std::array::from_fn(|k| (target[k] - f64::from(origin[k])) as f32));
+        let (from, to) = (Vec3::splat([0.0; 3]), Vec3::splat(to));
+        let c = cylinder::Lanes { from, to, radius, capped: true };
+        let double =
+            cylinder::Lanes { from: from.widen(), to: to.widen(), radius: radius.into(), capped: true };
+        let wide = cylinder::solve(&r.widen(), &double);
+        let kept = tier::Filtered::cylinder(&r, &c);
+        assert_kept("cylinder", (wide.mask, wide.t), kept.mask, &mut counts, &(r, c));
+    }
+    assert!(counts[1] > 10_000, "{counts:?}");
+}

@@ -7,8 +7,14 @@ pub(crate) mod dice;
 #[cfg(test)]
 pub(crate) mod exact;
 #[cfg(test)]
+pub(crate) mod grazing;
+#[cfg(test)]
 mod lanes;
 pub(crate) mod meshes;
+#[cfg(test)]
+pub(crate) mod pressed;
+#[cfg(test)]
+mod roots;
 
 #[cfg(test)]
 use super::{LaneHit, RayLanes};

@@ -5,9 +5,10 @@ use wide::{f32x8, f64x8};
 use super::{ExactVolumes, MollerTrumbore, Woop, oracle};
 use crate::intersect::aabb::CullRay;
 use crate::intersect::testing::dice::Dice;
+use crate::intersect::testing::grazing::{KINDS, hard_triangle, in_plane};
 use crate::intersect::testing::meshes::{Mesh, cube, icosphere, tetrahedron};
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
-use crate::intersect::{LaneHit, RayLanes, TriangleTest};
+use crate::intersect::{LaneHit, Ray, RayLanes, TriangleTest};
 use crate::math::{Aabb, Lane, Mask, Real, Vec3};
 
 fn meet<T: TriangleTest, R: Real>(ray: &RayLanes<R>, v: [Vec3<R>; 3]) -> LaneHit<R> {
@@ -104,6 +105,42 @@ fn hard_case(dice: &mut Dice) -> (RayLanes<f64>, [Vec3<f64>; 3]) {
     };
     let direction = if direction == [0.0; 3] { [0.0, 0.0, 1.0] } else { direction };
     (line(origin, direction), v.map(|p| Vec3::splat(p.map(f64::from))))
+}
+
+/// Trees hold parts of triangles by that: the glance passes 10 roundoffs and errs by as many, what it doubts is held to 16
+/// before `t, u, v` are rounded.
+#[test]
+fn a_hit_of_woop_lies_within_20_roundoffs_of_its_triangle() {
+    let mut dice = Dice(17);
+    let (mut hits, mut farthest) = (0, 0f64);
+    for round in 0..400_000 {
+        let scale = [1.0, 1e-3, 1e4][dice.below(3)];
+        let corners = hard_triangle(round % KINDS, &mut dice).map(|p| p.map(|x| scale * x));
+        let Ray { origin, direction, .. } = in_plane(&[corners], &mut dice);
+        if direction == [0.0; 3] {
+            continue;
+        }
+        let (r, v) = (line(origin, direction), corners.map(Vec3::splat));
+        let hit = meet::<Woop, f32>(&r, v);
+        if hit.mask {
+            hits += 1;
+            farthest = farthest.max(roundoffs_apart(&r.widen(), v.map(Vec3::widen), hit));
+            assert!(
+                farthest <= 20.0,
+                "{farthest} roundoffs between ray and triangle: {hit:?} of {r:?} {v:?}"
+            );
+        }
+    }
+    println!("woop f32: {hits} hits in planes, up to {farthest} roundoffs off");
+    assert!(hits > 20_000, "{hits}");
+}
+
+/// How far, by axis, the point of the ray is from that of the triangle.
+fn roundoffs_apart(ray: &RayLanes<f64>, v: [Vec3<f64>; 3], hit: LaneHit<f32>) -> f64 {
+    let [t, at_u, at_v] = [hit.t, hit.u, hit.v].map(f64::from);
+    let on_triangle = v[0] * (1.0 - at_u - at_v) + v[1] * at_u + v[2] * at_v;
+    let apart = (ray.origin + ray.direction * t - on_triangle).abs().max_component();
+    apart / (magnitude(ray, v) * f32::ROUNDOFF)
 }
 
 /// No case is too hard: hit or miss is that of exact arithmetic, and `t` is off by less than a hundredth of an `f32` ulp.

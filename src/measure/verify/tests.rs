@@ -55,6 +55,11 @@ fn rays_that_leave_surfaces_do_not_hit_them() {
     hold(&["leaving", "glass-chain", "glass-touching", "glass-far", "glass-shells", "critical-angle"]);
 }
 
+#[test]
+fn rays_that_leave_instances_do_not_hit_them() {
+    hold(&["leaving-instances"]);
+}
+
 /// A family that no test names would not be held to its bounds.
 #[test]
 fn every_family_is_held_to_its_bounds() {

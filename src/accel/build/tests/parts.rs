@@ -2,10 +2,10 @@
 
 use super::super::cut::Sweep;
 use super::super::item::Box4;
-use crate::accel::tests::cut::{KINDS, hard_triangle, in_plane};
 use crate::accel::tests::rays;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::testing::dice::Dice;
+use crate::intersect::testing::grazing::{KINDS, hard_triangle, in_plane};
 use crate::intersect::{Exact, Ray, RayLanes, Tier, TriangleTest, Watertight, triangle};
 use crate::math::{Lane, Real, Vec3};
 

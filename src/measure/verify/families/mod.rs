@@ -8,6 +8,7 @@ mod glass;
 mod leaks;
 mod mixed;
 mod paths;
+mod placed;
 mod spheres;
 mod triangles;
 

@@ -1,11 +1,12 @@
 //! Rays that start where others hit: away from surfaces, and through glass. Made by the renderer's own steps in each tier.
 
+use super::placed::placed;
 use super::{Family, Make, glass};
 use crate::accel::brute::{self, NearestHit};
-use crate::geometry::{Geometry, NO_MATERIAL};
+use crate::geometry::{Geometry, Group, Instance, NO_MATERIAL};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::{Exact, Fast, RayLanes, Tier, Watertight};
-use crate::math::{Lane, Real, Vec3, WIDTH};
+use crate::math::{Lane, Real, Transform, Vec3, WIDTH};
 use crate::measure::verify::bounds::Promise;
 use crate::measure::verify::families::aim::{across, add, rounded, towards, triangle};
 use crate::measure::verify::tally::{Fault, Tally};
@@ -19,6 +20,15 @@ pub(super) const FAMILIES: &[Family] = &[
         about: "from just computed hit points outwards, at any angle; sizes 1e-3 to 1e6, up to 1e3 sizes from the origin",
         promise: Promise::Leaving,
         make: Make::Walks(PATHS, [leaving::<Fast>, leaving::<Watertight>, leaving::<Exact>]),
+    },
+    Family {
+        name: "leaving-instances",
+        about: "the same through instances: turned, scaled, pressed to a thousandth, moved to the origin from afar",
+        promise: Promise::Leaving,
+        make: Make::Walks(
+            PATHS,
+            [leaving_instances::<Fast>, leaving_instances::<Watertight>, leaving_instances::<Exact>],
+        ),
     },
     Family {
         name: "glass-chain",
@@ -89,7 +99,7 @@ impl<R: Real> Surface<R> {
             u: T::Wide::splat(hit.u),
             v: T::Wide::splat(hit.v),
             row: [hit.prim.row() as u32; WIDTH],
-            instance: [0; WIDTH],
+            instance: [hit.instance; WIDTH],
         };
         let met = evaluate(g, hit.prim.kind(), &lanes);
         let one = |v: Vec3<T::Wide>| Vec3::splat(v.get(0));
@@ -108,14 +118,43 @@ fn leaving<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
     let size = dice.magnitude(-3.0, 6.0).abs();
     let away = dice.point().map(|x| x * size * [0.0, 1.0, 1e3][dice.below(3)]);
     let (g, center) = alone(dice, size, away);
+    leave::<T>(dice, tally, &g, &Shown { center, size, to_world: Transform::IDENTITY });
+}
+
+fn leaving_instances<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
+    let size = dice.magnitude(-3.0, 3.0).abs();
+    let away = dice.point().map(|x| x * size * [0.0, 1.0, 1e3][dice.below(3)]);
+    // Instances show no planes.
+    let (mut g, center, group) = loop {
+        let (mut g, center) = alone(dice, size, away);
+        if let Some(group) = g.groups.pop() {
+            break (g, center, group);
+        }
+    };
+    let to_world = placed(dice, center, size);
+    g.groups = vec![Group { triangles: 0..0, spheres: 0..0, cylinders: 0..0 }, group];
+    g.instances = vec![Instance { group: 1, to_world, material: NO_MATERIAL, object: 1 }];
+    leave::<T>(dice, tally, &g, &Shown { center, size, to_world });
+}
+
+/// What is aimed at, and how it is placed in the world.
+struct Shown {
+    center: [f64; 3],
+    size: f64,
+    to_world: Transform,
+}
+
+fn leave<T: Tier>(dice: &mut Dice, tally: &mut Tally, g: &Geometry, shown: &Shown) {
+    let &Shown { center, size, to_world } = shown;
     for _ in 0..PATHS {
         let reach = [0.5 * size, 1e-3 * size][dice.below(2)];
-        let target = add(center, dice.point(), reach);
-        let first = RayLanes::from(&towards(add(center, dice.heading(), 12.0 * size), target));
+        let target = to_world.point(add(center, dice.point(), reach));
+        let origin = to_world.point(add(center, dice.heading(), 12.0 * size));
+        let first = RayLanes::from(&towards(origin, target));
         let first =
             ray::<T::Real>(vector(first.origin.widen().get(0)), vector(first.direction.widen().get(0)));
-        let Some(hit) = brute::closest::<T>(&g, &first) else { continue };
-        let met = Surface::of::<T>(&g, &first, &hit);
+        let Some(hit) = brute::closest::<T>(g, &first) else { continue };
+        let met = Surface::of::<T>(g, &first, &hit);
         let normal = met.normal.get(0).map(Real::to_f64);
         // To the side the ray came from, now and then nearly along the surface.
         let facing =
@@ -124,7 +163,7 @@ fn leaving<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
         let way = add(across(dice, normal), facing, steep);
         let next = met.leave(vector(way));
         tally.rays += 1;
-        if let Some(again) = brute::closest::<T>(&g, &next) {
+        if let Some(again) = brute::closest::<T>(g, &next) {
             tally.hits += 1;
             tally.add(Fault::SelfHit, || format!("{next:?} leaves {g:?} and hits it at {:?}", again.t));
         }
