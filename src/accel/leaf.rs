@@ -7,7 +7,7 @@ use super::node::ChildRef;
 use super::query::Query;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::{Curved, LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::Vec3;
+use crate::math::{Lane, Mask, Vec3};
 use std::marker::PhantomData;
 
 /// Rays with all that the primitive tests of a tier prepare once a ray.
@@ -48,10 +48,35 @@ pub(super) fn cull_rays<T: Tier>(ray: &RayLanes<T::Wide>, tree: TreeRoot) -> Cul
     CullRay::new(origin, narrow(ray.direction), tree.scale_for(origin))
 }
 
+/// Lanes of eight rays of a tier.
+pub(super) type Lanes<T> = <<T as Tier>::Wide as Lane>::Mask;
+
 /// A block that rays of a tier can be tested against.
 pub(super) trait Testable: Block {
-    /// Meets rays with the primitives at a step of the walk.
-    fn test<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>, limit: T::Wide) -> LaneHit<T::Wide>;
+    /// Lanes whose rays may hit the primitives at a step of the walk, as far as is cheap to tell.
+    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T>;
+
+    /// Meets those lanes with the primitives at a step of the walk.
+    fn hit<T: Tier, W: Walk>(
+        &self,
+        step: usize,
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        limit: T::Wide,
+    ) -> LaneHit<T::Wide>;
+
+    /// Puts lanes that may hit the primitives at a step of the walk to the query; true if any was accepted.
+    #[inline(always)]
+    fn ask<T: Tier, W: Walk, Q: Query<T::Wide>>(
+        &self,
+        step: usize,
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        query: &mut Q,
+    ) -> bool {
+        let hit = self.hit::<T, W>(step, lanes, rays, query.limit());
+        query.accept(&rays.ray, &hit, W::ids(self.ids(), step))
+    }
 
     /// Puts the primitives at a step of the walk to the query; true if any was accepted.
     #[inline(always)]
@@ -61,29 +86,62 @@ pub(super) trait Testable: Block {
         rays: &TestRays<T>,
         query: &mut Q,
     ) -> bool {
-        let hit = self.test::<T, W>(step, rays, query.limit());
-        query.accept(&rays.ray, &hit, W::ids(self.ids(), step))
+        let lanes = self.may_hit::<T, W>(step, rays);
+        lanes.any() && self.ask::<T, W, Q>(step, lanes, rays, query)
     }
 }
 
 impl Testable for TriangleBlock {
     #[inline(always)]
-    fn test<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>, limit: T::Wide) -> LaneHit<T::Wide> {
-        T::Triangle::test(&rays.ray, &rays.triangle, self.corners::<W, _>(step), limit)
+    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
+        T::Triangle::may_hit(&rays.ray, &rays.triangle, self.corners::<W, _>(step))
+    }
+
+    #[inline(always)]
+    fn hit<T: Tier, W: Walk>(
+        &self,
+        step: usize,
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        limit: T::Wide,
+    ) -> LaneHit<T::Wide> {
+        T::Triangle::hit(lanes, &rays.ray, &rays.triangle, self.corners::<W, _>(step), limit)
     }
 }
 
 impl Testable for SphereBlock {
     #[inline(always)]
-    fn test<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>, _: T::Wide) -> LaneHit<T::Wide> {
-        T::Curved::sphere(&rays.ray, &self.spheres::<W, _>(step))
+    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
+        T::Curved::may_hit_sphere(&rays.ray, &self.spheres::<W, _>(step))
+    }
+
+    #[inline(always)]
+    fn hit<T: Tier, W: Walk>(
+        &self,
+        step: usize,
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        _: T::Wide,
+    ) -> LaneHit<T::Wide> {
+        T::Curved::hit_sphere(lanes, &rays.ray, &self.spheres::<W, _>(step))
     }
 }
 
 impl Testable for CylinderBlock {
     #[inline(always)]
-    fn test<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>, _: T::Wide) -> LaneHit<T::Wide> {
-        T::Curved::cylinder(&rays.ray, &self.cylinders::<W, _>(step))
+    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
+        T::Curved::may_hit_cylinder(&rays.ray, &self.cylinders::<W, _>(step))
+    }
+
+    #[inline(always)]
+    fn hit<T: Tier, W: Walk>(
+        &self,
+        step: usize,
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        _: T::Wide,
+    ) -> LaneHit<T::Wide> {
+        T::Curved::hit_cylinder(lanes, &rays.ray, &self.cylinders::<W, _>(step))
     }
 }
 

@@ -4,7 +4,7 @@ use wide::{f32x8, f64x8};
 
 use super::triangle::{ExactVolumes, MollerTrumbore, Woop};
 use super::{LaneHit, RayLanes, cylinder, sphere};
-use crate::math::{Lane, Real, Vec3, WIDTH};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
 
 /// A triangle test: what it prepares once a ray, and what it asks of a triangle.
 pub trait TriangleTest: Copy + Send + Sync + 'static {
@@ -12,13 +12,30 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
     type Prepared<L: Lane>: Copy;
     /// Prepares rays.
     fn prepare<L: Lane>(ray: &RayLanes<L>) -> Self::Prepared<L>;
-    /// Meets rays with triangles; `limit` is the nearest hit so far, and hits beyond it may be left out.
-    fn test<L: Lane>(
+    /// Lanes whose rays may hit their triangles: cheap, and few of them do not.
+    fn may_hit<L: Lane>(ray: &RayLanes<L>, prepared: &Self::Prepared<L>, vertices: [Vec3<L>; 3]) -> L::Mask;
+    /// Meets those lanes with their triangles; `limit` is the nearest hit so far, and hits beyond it may be left out.
+    fn hit<L: Lane>(
+        lanes: L::Mask,
         ray: &RayLanes<L>,
         prepared: &Self::Prepared<L>,
         vertices: [Vec3<L>; 3],
         limit: L,
     ) -> LaneHit<L>;
+    /// Meets rays with triangles: the two of above.
+    #[inline(always)]
+    fn test<L: Lane>(
+        ray: &RayLanes<L>,
+        prepared: &Self::Prepared<L>,
+        vertices: [Vec3<L>; 3],
+        limit: L,
+    ) -> LaneHit<L> {
+        let lanes = Self::may_hit(ray, prepared, vertices);
+        if !lanes.any() {
+            return LaneHit::none();
+        }
+        Self::hit(lanes, ray, prepared, vertices, limit)
+    }
 
     /// What is computed once for a ray that meets eight triangles at a time.
     type OneRay<R: Real>: Copy;
@@ -42,10 +59,27 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
 
 /// How spheres and cylinders are decided.
 pub trait Curved: Copy + Send + Sync + 'static {
-    /// Meets rays with spheres.
-    fn sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> LaneHit<L>;
-    /// Meets rays with cylinders.
-    fn cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
+    /// Lanes whose rays may hit their spheres, as far as is cheap to tell.
+    fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> L::Mask;
+    /// Meets those lanes with their spheres.
+    fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> LaneHit<L>;
+    /// Lanes whose rays may hit their cylinders, as far as is cheap to tell.
+    fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> L::Mask;
+    /// Meets those lanes with their cylinders.
+    fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
+
+    /// Meets rays with spheres: the two of above.
+    #[inline(always)]
+    fn sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> LaneHit<L> {
+        let lanes = Self::may_hit_sphere(ray, sphere);
+        if lanes.any() { Self::hit_sphere(lanes, ray, sphere) } else { LaneHit::none() }
+    }
+    /// Meets rays with cylinders: the two of above.
+    #[inline(always)]
+    fn cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L> {
+        let lanes = Self::may_hit_cylinder(ray, cylinder);
+        if lanes.any() { Self::hit_cylinder(lanes, ray, cylinder) } else { LaneHit::none() }
+    }
 }
 
 /// Solves in the number type of the lanes.
@@ -58,23 +92,39 @@ pub struct Filtered;
 
 impl Curved for Direct {
     #[inline(always)]
-    fn sphere<L: Lane>(ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
+    fn may_hit_sphere<L: Lane>(_: &RayLanes<L>, _: &sphere::Lanes<L>) -> L::Mask {
+        L::Mask::splat(true)
+    }
+    #[inline(always)]
+    fn hit_sphere<L: Lane>(_: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
         sphere::solve(ray, s)
     }
     #[inline(always)]
-    fn cylinder<L: Lane>(ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
+    fn may_hit_cylinder<L: Lane>(_: &RayLanes<L>, _: &cylinder::Lanes<L>) -> L::Mask {
+        L::Mask::splat(true)
+    }
+    #[inline(always)]
+    fn hit_cylinder<L: Lane>(_: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
         cylinder::solve(ray, c)
     }
 }
 
 impl Curved for Filtered {
     #[inline(always)]
-    fn sphere<L: Lane>(ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
-        sphere::filter_and_solve(ray, s)
+    fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> L::Mask {
+        sphere::may_hit(ray, s)
     }
     #[inline(always)]
-    fn cylinder<L: Lane>(ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
-        cylinder::filter_and_solve(ray, c)
+    fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
+        sphere::solve_widened(lanes, ray, s)
+    }
+    #[inline(always)]
+    fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
+        cylinder::may_hit(ray, c)
+    }
+    #[inline(always)]
+    fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
+        cylinder::solve_widened(lanes, ray, c)
     }
 }
 

@@ -2,10 +2,12 @@
 //!
 //! Plainly: each packet of eight rays is tested against every primitive that the pyramid of all rays meets. Departures:
 //! - in a leaf the pyramid is tested against eight primitives at once, then a primitive against the pyramids of eight
-//!   packets at once; only the pairs that are left run the primitive test;
+//!   packets at once; only the pairs that are left run the primitive test, first all its cheap half, then what may hit:
+//!   loops that overlap from pair to pair and have little to guess;
 //! - a bundle that meets many primitives is given up: its rays are too far apart for the size of the primitives, and the
 //!   packets go on from what they have found.
 
+use super::candidates::{Candidate, Candidates, room_for};
 use super::frustum::{Apex, Boxes, Frustum};
 use crate::accel::Accel;
 use crate::accel::block::RaysByPrimitive;
@@ -16,21 +18,40 @@ use crate::accel::node::ChildRef;
 use crate::accel::query::Query;
 use crate::accel::{packet, single};
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{WIDTH, three};
+use crate::math::{Mask, WIDTH, three};
 
 /// Primitives met by the pyramid up to which a bundle pays: two a ray.
 const PAYS: usize = 2 * WIDTH * WIDTH;
 /// Those after which it is given up: by then it costs less to go on than to begin otherwise, unless there are many more.
 const BUDGET: usize = 3 * WIDTH * WIDTH;
 
-/// Packets prepared when first tested: many meet nothing.
-pub(super) type Prepared<T> = [Option<TestRays<T>>; WIDTH];
+/// What a worker keeps for bundles.
+pub(super) struct Workplace<T: Tier> {
+    /// Packets prepared for primitives when first tested, as many meet nothing; which of them are, as bits.
+    prepared: [TestRays<T>; WIDTH],
+    is_prepared: u32,
+    /// Pairs of a primitive of a block and a packet.
+    pairs: Candidates<{ room_for(WIDTH) }>,
+    /// Those that may hit, with the lanes that may.
+    likely: [(Candidate, u32); room_for(WIDTH)],
+}
+
+impl<T: Tier> Default for Workplace<T> {
+    fn default() -> Self {
+        Self {
+            prepared: [TestRays::new(super::no_rays()); WIDTH],
+            is_prepared: 0,
+            pairs: Candidates::default(),
+            likely: [(Candidate::default(), 0); room_for(WIDTH)],
+        }
+    }
+}
 
 /// Packets of a bundle with what they ask.
 pub(super) struct Bundle<'a, T: Tier, Q> {
     frustum: Frustum,
     rays: &'a [RayLanes<T::Wide>],
-    prepared: &'a mut Prepared<T>,
+    work: &'a mut Workplace<T>,
     queries: &'a mut [Q],
     /// Primitives that the pyramid met.
     met: usize,
@@ -48,7 +69,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         rays: &'a [RayLanes<T::Wide>],
         apex: Apex,
         tree: TreeRoot,
-        prepared: &'a mut Prepared<T>,
+        work: &'a mut Workplace<T>,
         queries: &'a mut [Q],
     ) -> Option<Self> {
         let mut frustum = Frustum::around::<T>(rays, apex, tree)?;
@@ -56,8 +77,8 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             frustum.look(j, T::above_f32(query.limit()));
         }
         frustum.update_reach();
-        prepared.iter_mut().for_each(|prepared| *prepared = None);
-        Some(Self { frustum, rays, prepared, queries, met: 0 })
+        work.is_prepared = 0;
+        Some(Self { frustum, rays, work, queries, met: 0 })
     }
 
     /// True if its rays had better go together, and its neighbours' rays too.
@@ -112,8 +133,8 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             std::array::from_fn(|j| Accel::local_rays(&placed.to_world, &self.rays[j.min(count - 1)]));
         let (rays, apex) = (&local[..count], self.frustum.apex().in_space_of(&placed.to_world));
         self.queries.iter_mut().for_each(|query| query.enter_instance(placed.row + 1));
-        let mut prepared = [const { None }; WIDTH];
-        let inside = Bundle::<T, Q>::new(rays, apex, placed.tree, &mut prepared, self.queries);
+        let mut work = Workplace::default();
+        let inside = Bundle::<T, Q>::new(rays, apex, placed.tree, &mut work, self.queries);
         let done = inside.is_some_and(|mut inside| {
             let done = inside.descend(accel, root, stacks);
             self.met += inside.met;
@@ -140,16 +161,61 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
     ) -> bool {
         let mut left = met & ((1 << block.count()) - 1);
         self.met += left.count_ones() as usize;
-        let mut accepted = 0;
+        self.work.pairs.clear();
+        let (all, mut wanted) = ((1 << self.rays.len()) - 1, 0);
         while left != 0 {
             let i = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            accepted |= self.visit_packets(block, i, packets(&self.frustum, i));
+            let packets = packets(&self.frustum, i) & all;
+            self.work.pairs.push(i, packets);
+            wanted |= packets;
         }
+        self.prepare(wanted);
+        let likely = self.find_likely(block);
+        let accepted = self.ask_likely(block, likely);
         if accepted != 0 {
             self.look_again(accepted);
         }
         accepted != 0
+    }
+
+    /// Prepares packets for primitives.
+    #[inline(always)]
+    fn prepare(&mut self, packets: u32) {
+        let mut left = packets & !self.work.is_prepared;
+        self.work.is_prepared |= packets;
+        while left != 0 {
+            let j = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            self.work.prepared[j] = TestRays::new(self.rays[j]);
+        }
+    }
+
+    /// Sorts out the pairs that may hit; gives how many.
+    #[inline(always)]
+    fn find_likely<B: Testable>(&mut self, block: &B) -> usize {
+        let work = &mut *self.work;
+        let mut count = 0;
+        for k in 0..work.pairs.len() {
+            let pair = work.pairs.get(k);
+            let lanes = block.may_hit::<T, RaysByPrimitive>(pair.row(), &work.prepared[pair.lane()]).bits();
+            work.likely[count] = (pair, lanes);
+            count += usize::from(lanes != 0);
+        }
+        count
+    }
+
+    /// Puts so many of the likely pairs to the queries; gives the packets that accepted a hit.
+    #[inline(always)]
+    fn ask_likely<B: Testable>(&mut self, block: &B, count: usize) -> u32 {
+        let mut accepted = 0;
+        for &(pair, lanes) in &self.work.likely[..count] {
+            let (i, j) = (pair.row(), pair.lane());
+            let (rays, query) = (&self.work.prepared[j], &mut self.queries[j]);
+            let accepts = block.ask::<T, RaysByPrimitive, Q>(i, Mask::from_bits(lanes), rays, query);
+            accepted |= u32::from(accepts) << j;
+        }
+        accepted
     }
 
     /// Draws in what packets that found something look for.
@@ -162,20 +228,6 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             self.frustum.look(j, T::above_f32(self.queries[j].limit()));
         }
         self.frustum.update_reach();
-    }
-
-    /// Tests primitive `i` of a block against packets; gives those that accepted a hit.
-    #[inline(always)]
-    fn visit_packets<B: Testable>(&mut self, block: &B, i: usize, packets: u32) -> u32 {
-        let mut accepted = 0;
-        let mut left = packets & ((1 << self.rays.len()) - 1);
-        while left != 0 {
-            let j = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
-            let rays = self.prepared[j].get_or_insert_with(|| TestRays::new(self.rays[j]));
-            accepted |= u32::from(block.visit::<T, RaysByPrimitive, Q>(i, rays, &mut self.queries[j])) << j;
-        }
-        accepted
     }
 }
 

@@ -10,13 +10,13 @@
 //! Each ray visits what it would visit alone, in the same order. On its way into an instance it leaves a note on its stack
 //! that brings it back out.
 
-mod candidates;
 mod seeds;
 mod slot;
 
 use wide::{f32x8, u32x8};
 
 use super::Answers;
+use super::candidates::{Candidates, room_for};
 use super::columns::RayColumns;
 use crate::accel::Accel;
 use crate::accel::block::{Block, TriangleBlock};
@@ -26,7 +26,6 @@ use crate::accel::query::Query;
 use crate::accel::unchecked::{self, Slots, Stacks};
 use crate::intersect::{LaneHit, RayLanes, Tier, TriangleTest};
 use crate::math::{Lane, Mask, WIDTH, eight};
-use candidates::Candidates;
 use seeds::Waiting;
 use slot::Slot;
 
@@ -55,7 +54,7 @@ pub(super) struct Flight<T: Tier, Q> {
     in_leaves: Slots<LIST>,
     /// At leaves of anything but triangles.
     at_others: Slots<LIST>,
-    candidates: Box<Candidates>,
+    candidates: Box<Candidates<{ room_for(SLOTS) }>>,
     done: Slots<LIST>,
     stacks: Stacks,
 }
@@ -189,7 +188,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
     #[inline(always)]
     fn test_candidates(&mut self, accel: &Accel, first: usize) {
         let (pairs, count) = self.candidates.eight(first);
-        let slots = eight(|i| &self.slots[pairs[i].slot()]);
+        let slots = eight(|i| &self.slots[pairs[i].row()]);
         let blocks = eight(|i| unchecked::triangles(accel, slots[i].next));
         let rays = RayLanes::<T::Wide>::gather(|i| &slots[i].ray);
         let corners = TriangleBlock::gather(&blocks, &eight(|i| pairs[i].lane()));
@@ -199,7 +198,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         while left != 0 {
             let i = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            let slot = &mut self.slots[pairs[i].slot()];
+            let slot = &mut self.slots[pairs[i].row()];
             let id = blocks[i].ids()[pairs[i].lane()];
             let hit = LaneHit { mask: true, t: hits.t.get(i), u: hits.u.get(i), v: hits.v.get(i) };
             slot.accepted |= slot.query.accept(&slot.ray, &hit, id);

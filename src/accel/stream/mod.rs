@@ -7,6 +7,7 @@
 //! Which way a ray takes changes no result.
 
 mod bundle;
+mod candidates;
 mod columns;
 mod flight;
 mod frustum;
@@ -16,7 +17,7 @@ use super::query::{AnyHit, Closest, Query};
 use super::traversal::{Hint, Pace, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Vec3, WIDTH};
-use bundle::{Bundle, Prepared, Stacks};
+use bundle::{Bundle, Stacks, Workplace};
 use flight::{Alone, Flight};
 
 pub use columns::{Bound, HitColumns, RayColumns};
@@ -181,7 +182,7 @@ struct Bundles<'a, T: Tier> {
     accel: &'a Accel,
     traversal: Traversal<'a>,
     rays: Box<[RayLanes<T::Wide>; BUNDLE]>,
-    prepared: Box<Prepared<T>>,
+    work: Box<Workplace<T>>,
     /// Where a bundle does not pay, its neighbours hardly would.
     pace: Pace,
 }
@@ -192,7 +193,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             accel,
             traversal: Traversal::new(accel),
             rays: Box::new([no_rays(); BUNDLE]),
-            prepared: Box::new([const { None }; BUNDLE]),
+            work: Box::default(),
             pace: Pace::default(),
         }
     }
@@ -243,7 +244,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
     fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> bool {
         let world = self.accel.world;
         let rays = &self.rays[..queries.len()];
-        let Some(mut bundle) = Bundle::new(rays, apex, world, &mut self.prepared, queries) else {
+        let Some(mut bundle) = Bundle::new(rays, apex, world, &mut self.work, queries) else {
             return false;
         };
         let mut stacks =

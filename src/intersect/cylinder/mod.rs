@@ -115,13 +115,9 @@ fn first_beyond<L: Lane>(
     (mask, L::select(enters, first, last), on_side)
 }
 
-/// The same, with `f32` lanes as a filter before `f64`.
+/// The same in `f64`, for the lanes that [`may_hit`].
 #[inline(always)]
-pub fn filter_and_solve<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> {
-    let candidates = may_hit(ray, c);
-    if !candidates.any() {
-        return LaneHit::none();
-    }
+pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> {
     let wide = Lanes {
         from: c.from.widen(),
         to: c.to.widen(),
@@ -129,7 +125,7 @@ pub fn filter_and_solve<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> 
         capped: L::widen_mask(c.capped),
     };
     let mut hit = LaneHit::narrow(solve_rounded(&ray.widen(), &wide, |t| L::narrow(t).widen()));
-    hit.mask = hit.mask & candidates;
+    hit.mask = hit.mask & lanes;
     hit
 }
 
@@ -137,7 +133,7 @@ pub fn filter_and_solve<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> 
 /// `|f . n| / |n|` with `n` the product of direction and axis. The sum of magnitudes stands for `|n|`: up to 1.7 times
 /// too large, but safe from underflow. NaN and overflow count as doubt.
 #[inline(always)]
-fn may_hit<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> L::Mask {
+pub fn may_hit<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> L::Mask {
     let (axis, f, d) = (c.to - c.from, ray.origin - c.from, ray.direction);
     let n = d.cross(axis);
     let sum = |v: Vec3<L>| v.x.abs() + v.y.abs() + v.z.abs();

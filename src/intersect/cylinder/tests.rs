@@ -1,10 +1,11 @@
 //! Cylinders against exact arithmetic, and one test a slip of the textbook form.
 
 use super::oracle::{Cylinder, Part, meetings};
-use super::{Lanes, filter_and_solve, solve};
+use super::{Lanes, solve};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
-use crate::intersect::{LaneHit, RayLanes};
+use crate::intersect::tier::Filtered;
+use crate::intersect::{Curved, LaneHit, RayLanes};
 use crate::math::{Real, Vec3};
 
 type Solve = fn(&RayLanes<f32>, &Lanes<f32>) -> LaneHit<f32>;
@@ -105,20 +106,20 @@ fn the_filter_keeps_a_speck_seen_from_far_away() {
         let c = Lanes { from: Vec3::splat([0.0; 3]), to, radius: 1e-22, capped: true };
         let tiny = 2f32.powi(-66);
         let r = line(heading.map(|x| -x * 2f32.powi(33)), heading.map(|x| x * tiny));
-        assert!(filter_and_solve(&r, &c).mask, "{r:?} {c:?}");
+        assert!(Filtered::cylinder(&r, &c).mask, "{r:?} {c:?}");
     }
 }
 
 #[test]
 fn the_filtered_test_agrees_with_exact_arithmetic() {
-    assert_agrees("filtered along", filter_and_solve::<f32>, f64::ROUNDOFF, 32.0, along_the_axis);
-    assert_agrees("filtered", filter_and_solve::<f32>, f64::ROUNDOFF, 32.0, anywhere);
+    assert_agrees("filtered along", Filtered::cylinder::<f32>, f64::ROUNDOFF, 32.0, along_the_axis);
+    assert_agrees("filtered", Filtered::cylinder::<f32>, f64::ROUNDOFF, 32.0, anywhere);
 }
 
 /// Slip: side asked by height and cap by radius, each rounded alone, so that rays at the rim pass between them.
 #[test]
 fn no_ray_passes_between_side_and_cap() {
-    assert_agrees("filtered at the rim", filter_and_solve::<f32>, f64::ROUNDOFF, 32.0, at_the_rim);
+    assert_agrees("filtered at the rim", Filtered::cylinder::<f32>, f64::ROUNDOFF, 32.0, at_the_rim);
     assert_agrees("direct at the rim", solve::<f32>, f32::ROUNDOFF, 32.0, at_the_rim);
 }
 
@@ -142,7 +143,7 @@ fn first_meeting_and_its_part_are_those_of_the_oracle() {
             skipped += 1;
             continue;
         }
-        let (hit, want) = (filter_and_solve(&r, &c), first(radius));
+        let (hit, want) = (Filtered::cylinder(&r, &c), first(radius));
         assert_eq!(hit.mask && hit.t > r.t_min, want.is_some(), "{hit:?} {want:?} {c:?} {r:?}");
         if let Some((t, part)) = want {
             let code = [Part::Side, Part::FromCap, Part::ToCap].iter().position(|p| *p == part);
@@ -161,7 +162,7 @@ fn upright(capped: bool) -> Lanes<f32> {
 
 /// `(t, u, v)` as the caller sees it, which both versions must give.
 fn seen(r: &RayLanes<f32>, c: &Lanes<f32>) -> Option<[f32; 3]> {
-    let [a, b] = [solve(r, c), filter_and_solve(r, c)]
+    let [a, b] = [solve(r, c), Filtered::cylinder(r, c)]
         .map(|h| t_of(h).filter(|t| r.t_min < *t && *t < r.t_max).map(|t| [t, h.u, h.v]));
     assert_eq!(a, b);
     a
@@ -243,8 +244,8 @@ fn continuing_from_the_first_hit_finds_the_second() {
         if far - near < 1e-3 * (far.abs() + near.abs()) {
             continue;
         }
-        let first = filter_and_solve(&r, &c).t;
-        let second = filter_and_solve(&RayLanes { t_min: first, ..r }, &c);
+        let first = Filtered::cylinder(&r, &c).t;
+        let second = Filtered::cylinder(&RayLanes { t_min: first, ..r }, &c);
         let reached = f64::from(second.t) > 0.5 * (near + far);
         assert!(second.mask && reached, "{first} then {} of {near} {far}", second.t);
     }

@@ -11,7 +11,7 @@
 pub mod oracle;
 
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{Aabb, Lane, Mask, Vec3, fused_cross, fused_dot, gamma};
+use crate::math::{Aabb, Lane, Vec3, fused_cross, fused_dot, gamma};
 
 /// Spheres as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -52,22 +52,18 @@ fn solve_rounded<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>, round: impl Fn(L) -> 
     LaneHit { mask, t, u: L::zero(), v: L::zero() }
 }
 
-/// The same, with `f32` lanes as a filter before `f64`.
+/// The same in `f64`, for the lanes that [`may_hit`].
 #[inline(always)]
-pub fn filter_and_solve<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
-    let candidates = may_hit(ray, s);
-    if !candidates.any() {
-        return LaneHit::none();
-    }
+pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
     let mut hit = LaneHit::narrow(solve_rounded(&ray.widen(), &s.widen(), |t| L::narrow(t).widen()));
-    hit.mask = hit.mask & candidates;
+    hit.mask = hit.mask & lanes;
     hit
 }
 
 /// False only where the sphere is certainly missed. Written with `not greater`, so that overflow, underflow and NaN
 /// count as doubt.
 #[inline(always)]
-fn may_hit<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {
+pub fn may_hit<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {
     let (f, d) = (ray.origin - s.center, ray.direction);
     let (a, b, ff) = (fused_dot(d, d), fused_dot(f, d), fused_dot(f, f));
     let n = fused_cross(f, d);

@@ -1,9 +1,10 @@
 //! Spheres against exact arithmetic, and the cases that defeat the textbook quadratic.
 
-use super::{Lanes, filter_and_solve, oracle, solve};
+use super::{Lanes, oracle, solve};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
-use crate::intersect::{LaneHit, RayLanes};
+use crate::intersect::tier::Filtered;
+use crate::intersect::{Curved, LaneHit, RayLanes};
 use crate::math::{Real, Vec3};
 
 type Solve = fn(&RayLanes<f32>, &Lanes<f32>) -> LaneHit<f32>;
@@ -46,7 +47,7 @@ fn assert_agrees(name: &str, solve: Solve, roundoff: f64, margin: f64, away: f64
 #[test]
 fn the_filtered_test_agrees_with_exact_arithmetic_near_and_far() {
     for away in [1.5, 10.0, 1e4] {
-        let p99 = assert_agrees("filtered", filter_and_solve::<f32>, f64::ROUNDOFF, 16.0, away);
+        let p99 = assert_agrees("filtered", Filtered::sphere::<f32>, f64::ROUNDOFF, 16.0, away);
         assert!(p99 <= 0.51, "{p99}");
     }
 }
@@ -86,7 +87,7 @@ fn a_ground_sphere_is_hit_where_it_is() {
         let p = dice.point();
         let r = ray([p[0] as f32, 1.0, p[2] as f32], [p[0] as f32, -0.1 - p[1].abs() as f32, p[2] as f32]);
         let [near, _] = exact::sphere(&r, ground.center, 1e6).expect("looking down");
-        let error = ulps(t_of(filter_and_solve(&r, &ground)).expect("the ground"), near);
+        let error = ulps(t_of(Filtered::sphere(&r, &ground)).expect("the ground"), near);
         assert!(error <= 1.0, "{error} ulp of {near}: {r:?}");
     }
 }
@@ -95,7 +96,7 @@ const UNIT: Lanes<f32> = Lanes { center: Vec3 { x: 0.0, y: 0.0, z: 0.0 }, radius
 
 /// `t` as the caller sees it, by both versions.
 fn both(r: &RayLanes<f32>, s: &Lanes<f32>) -> [Option<f32>; 2] {
-    [solve(r, s), filter_and_solve(r, s)].map(|h| t_of(h).filter(|t| r.t_min < *t && *t < r.t_max))
+    [solve(r, s), Filtered::sphere(r, s)].map(|h| t_of(h).filter(|t| r.t_min < *t && *t < r.t_max))
 }
 
 #[test]
@@ -133,7 +134,7 @@ fn continuing_from_the_near_side_finds_the_far_side() {
     for _ in 0..20_000 {
         let (r, s) = seen_from(&mut dice, 3.0);
         let Some([near, far]) = exact::sphere(&r, s.center, f64::from(s.radius) * 0.999) else { continue };
-        for solve in [solve::<f32> as Solve, filter_and_solve::<f32>] {
+        for solve in [solve::<f32> as Solve, Filtered::sphere::<f32>] {
             let first = solve(&r, &s).t;
             let second = solve(&RayLanes { t_min: first, ..r }, &s);
             let reached = f64::from(second.t) > 0.5 * (near + far);

@@ -34,19 +34,27 @@ impl TriangleTest for ExactVolumes {
     }
 
     #[inline(always)]
-    fn test<L: Lane>(ray: &RayLanes<L>, own: &OwnBox<L>, v: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
+    fn may_hit<L: Lane>(ray: &RayLanes<L>, _: &OwnBox<L>, v: [Vec3<L>; 3]) -> L::Mask {
         let sides = Sides::of(&ray.widen(), three(|k| v[k].widen()));
         let mut mask = L::narrow_mask(sides.inside);
         let doubtful = L::narrow_mask(sides.doubtful).bits();
         if doubtful != 0 {
             mask = mask | L::Mask::from_bits(inside_exactly(doubtful, ray, v));
         }
-        if !mask.any() {
-            return LaneHit::none();
-        }
+        mask
+    }
+
+    #[inline(always)]
+    fn hit<L: Lane>(
+        lanes: L::Mask,
+        ray: &RayLanes<L>,
+        own: &OwnBox<L>,
+        v: [Vec3<L>; 3],
+        limit: L,
+    ) -> LaneHit<L> {
         let (lo, hi) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
         let (first, last) = own.interval(lo, hi);
-        let mask = mask & first.le(last) & ray.t_min.le(last) & first.le(limit);
+        let mask = lanes & first.le(last) & ray.t_min.le(last) & first.le(limit);
         if !mask.any() {
             return LaneHit::none();
         }

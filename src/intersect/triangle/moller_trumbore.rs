@@ -19,19 +19,13 @@ impl TriangleTest for MollerTrumbore {
     fn prepare<L: Lane>(_: &RayLanes<L>) {}
 
     #[inline(always)]
-    fn test<L: Lane>(ray: &RayLanes<L>, _: &(), v: [Vec3<L>; 3], _: L) -> LaneHit<L> {
-        let (e1, e2, s) = (v[1] - v[0], v[2] - v[0], ray.origin - v[0]);
-        let p = fused_cross(ray.direction, e2);
-        let det = fused_dot(e1, p);
-        let q = fused_cross(s, e1);
-        let scale = L::one() / det;
-        let (u, v) = (fused_dot(s, p) * scale, fused_dot(ray.direction, q) * scale);
-        let zero = L::zero();
-        let mask = u.ge(zero) & v.ge(zero) & (u + v).le(L::one());
-        if !mask.any() {
-            return LaneHit::none();
-        }
-        LaneHit { mask, t: fused_dot(e2, q) * scale, u, v }
+    fn may_hit<L: Lane>(ray: &RayLanes<L>, _: &(), v: [Vec3<L>; 3]) -> L::Mask {
+        solve(ray, v).mask
+    }
+
+    #[inline(always)]
+    fn hit<L: Lane>(_: L::Mask, ray: &RayLanes<L>, _: &(), v: [Vec3<L>; 3], _: L) -> LaneHit<L> {
+        solve(ray, v)
     }
 
     type OneRay<R: Real> = ();
@@ -52,4 +46,18 @@ impl TriangleTest for MollerTrumbore {
     fn test_candidates<L: Lane>(ray: &RayLanes<L>, vertices: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
         Self::test(ray, &(), vertices, limit)
     }
+}
+
+/// Where rays meet the planes of triangles, in the lanes where that is inside.
+#[inline(always)]
+fn solve<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> LaneHit<L> {
+    let (e1, e2, s) = (v[1] - v[0], v[2] - v[0], ray.origin - v[0]);
+    let p = fused_cross(ray.direction, e2);
+    let det = fused_dot(e1, p);
+    let q = fused_cross(s, e1);
+    let scale = L::one() / det;
+    let (u, v) = (fused_dot(s, p) * scale, fused_dot(ray.direction, q) * scale);
+    let zero = L::zero();
+    let mask = u.ge(zero) & v.ge(zero) & (u + v).le(L::one());
+    LaneHit { mask, t: fused_dot(e2, q) * scale, u, v }
 }

@@ -87,12 +87,19 @@ impl TriangleTest for Woop {
     }
 
     #[inline(always)]
-    fn test<L: Lane>(ray: &RayLanes<L>, shear: &Shear<L>, v: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
-        let mask = inside_edges(three(|k| shear.across(v[k] - ray.origin)));
-        if !mask.any() {
-            return LaneHit::none();
-        }
-        within_own_box(mask, ray, &shear.own, v, limit)
+    fn may_hit<L: Lane>(ray: &RayLanes<L>, shear: &Shear<L>, v: [Vec3<L>; 3]) -> L::Mask {
+        inside_edges(three(|k| shear.across(v[k] - ray.origin)))
+    }
+
+    #[inline(always)]
+    fn hit<L: Lane>(
+        lanes: L::Mask,
+        ray: &RayLanes<L>,
+        shear: &Shear<L>,
+        v: [Vec3<L>; 3],
+        limit: L,
+    ) -> LaneHit<L> {
+        within_own_box(lanes, ray, &shear.own, v, limit)
     }
 
     type OneRay<R: Real> = OneShear<R>;

@@ -139,7 +139,11 @@ impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
         let rays = TestRays::new(RayLanes::splat(&self.ray));
         let limit = T::Wide::splat(self.query.limit());
-        let hit: LaneHit<T::Wide> = block.test::<T, PrimitivesByRay>(0, &rays, limit);
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays);
+        if !lanes.any() {
+            return false;
+        }
+        let hit: LaneHit<T::Wide> = block.hit::<T, PrimitivesByRay>(0, lanes, &rays, limit);
         let (mut left, mut accepted) = (hit.mask.bits(), false);
         while left != 0 {
             let i = left.trailing_zeros() as usize;
