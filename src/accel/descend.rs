@@ -6,21 +6,20 @@
 
 use super::Accel;
 use super::block::Walk;
-use super::leaf::{AllSteps, PreparedRays, with_block};
+use super::leaf::{PreparedRays, TestRays};
 use super::node::{ChildRef, Node8};
 use super::query::Query;
 use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
 use crate::math::{Mask, three};
-use std::marker::PhantomData;
 use wide::f32x8;
 
 /// How rays go down the tree.
 pub(super) trait Descend: Walk {
     /// A child to visit, and where the rays enter it.
     type Entry: Copy;
-    /// The lanes hold one and the same ray.
-    const ONE_RAY: bool;
+    /// What is kept on the way down.
+    type Kept<T: Tier>: Default;
 
     /// An entry that every ray reaches.
     fn entry(child: ChildRef) -> Self::Entry;
@@ -36,6 +35,16 @@ pub(super) trait Descend: Walk {
         range: (f32x8, f32x8),
         stack: &mut Vec<Self::Entry>,
     );
+    /// Puts the primitives of a leaf to the query.
+    fn visit_leaf<T: Tier, Q: Query<T::Wide>>(
+        accel: &Accel,
+        leaf: ChildRef,
+        rays: &TestRays<T>,
+        query: &mut Q,
+        kept: &mut Self::Kept<T>,
+    );
+    /// Leaves the query as it would be had nothing been kept.
+    fn settle<T: Tier, Q: Query<T::Wide>>(rays: &TestRays<T>, query: &mut Q, kept: &mut Self::Kept<T>);
 }
 
 /// The octant of the first ray, and whether all rays share it.
@@ -107,6 +116,7 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
     let base = stack.len();
     let t_min = T::below_f32(rays.test.ray.t_min);
     let octant = Octant::of(&rays.cull);
+    let mut kept = D::Kept::<T>::default();
     let (costs, mut saved) = (Costs::of(octant), Costs::START);
     stack.push(D::entry(ChildRef::node(root)));
     while stack.len() > base && !query.is_done() {
@@ -122,15 +132,15 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
             let node = &accel.nodes[child.index() as usize];
             D::push_children(node, &rays.cull, octant, (t_min, limit), stack);
         } else if child.kind() == Accel::INSTANCE {
+            D::settle::<T, Q>(&rays.test, query, &mut kept);
             accel.visit_instance::<T, Q>(child, &rays.test.ray, query, |root, local, query| {
                 saved += descend::<T, D, Q>(accel, root, local, query, stack);
             });
-        } else if with_block(accel, child, &mut AllSteps { rays: &rays.test, query, walk: PhantomData::<D> })
-            && D::ONE_RAY
-        {
-            query.share_limit();
+        } else {
+            D::visit_leaf::<T, Q>(accel, child, &rays.test, query, &mut kept);
         }
     }
+    D::settle::<T, Q>(&rays.test, query, &mut kept);
     stack.truncate(base);
     saved
 }

@@ -1,14 +1,17 @@
 //! Testing the primitives of a leaf, for every walk, query and tier.
 
 use super::Accel;
-use super::block::{Block, CylinderBlock, SphereBlock, TriangleBlock, Walk};
+use super::block::{
+    Block, CylinderBlock, PrimitivesByRay, RaysByPrimitive, SphereBlock, TriangleBlock, Walk,
+};
 use super::instance::TreeRoot;
 use super::node::ChildRef;
+use super::pending::Pending;
 use super::query::Query;
 use crate::intersect::aabb::CullRay;
+use crate::intersect::triangle::Glimpse;
 use crate::intersect::{Curved, LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Vec3};
-use std::marker::PhantomData;
+use crate::math::{Lane, Mask, Vec3, WIDTH};
 
 /// Rays with all that the primitive tests of a tier prepare once a ray.
 #[derive(Clone, Copy)]
@@ -51,6 +54,9 @@ pub(super) fn cull_rays<T: Tier>(ray: &RayLanes<T::Wide>, tree: TreeRoot) -> Cul
 /// Lanes of eight rays of a tier.
 pub(super) type Lanes<T> = <<T as Tier>::Wide as Lane>::Mask;
 
+/// What is certain of meetings with triangles, and their corners.
+pub(super) type Seen<T> = (Glimpse<<T as Tier>::Wide>, [Vec3<<T as Tier>::Wide>; 3]);
+
 /// A block that rays of a tier can be tested against.
 pub(super) trait Testable: Block {
     /// Lanes whose rays may hit the primitives at a step of the walk, as far as is cheap to tell.
@@ -65,6 +71,12 @@ pub(super) trait Testable: Block {
         limit: T::Wide,
     ) -> LaneHit<T::Wide>;
 
+    /// What is certain without meeting them, where there is a cheap way to tell.
+    #[inline(always)]
+    fn glimpse<T: Tier, W: Walk>(&self, _step: usize, _: &TestRays<T>) -> Option<Seen<T>> {
+        None
+    }
+
     /// Puts lanes that may hit the primitives at a step of the walk to the query; true if any was accepted.
     #[inline(always)]
     fn ask<T: Tier, W: Walk, Q: Query<T::Wide>>(
@@ -78,17 +90,6 @@ pub(super) trait Testable: Block {
         query.accept(&rays.ray, &hit, W::ids(self.ids(), step))
     }
 
-    /// Puts the primitives at a step of the walk to the query; true if any was accepted.
-    #[inline(always)]
-    fn visit<T: Tier, W: Walk, Q: Query<T::Wide>>(
-        &self,
-        step: usize,
-        rays: &TestRays<T>,
-        query: &mut Q,
-    ) -> bool {
-        let lanes = self.may_hit::<T, W>(step, rays);
-        lanes.any() && self.ask::<T, W, Q>(step, lanes, rays, query)
-    }
 }
 
 impl Testable for TriangleBlock {
@@ -106,6 +107,12 @@ impl Testable for TriangleBlock {
         limit: T::Wide,
     ) -> LaneHit<T::Wide> {
         T::Triangle::hit(lanes, &rays.ray, &rays.triangle, self.corners::<W, _>(step), limit)
+    }
+
+    #[inline(always)]
+    fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Seen<T>> {
+        let corners = self.corners::<W, _>(step);
+        Some((T::Triangle::glimpse(&rays.ray, &rays.triangle, corners)?, corners))
     }
 }
 
@@ -164,20 +171,41 @@ pub(super) fn with_block(accel: &Accel, leaf: ChildRef, visitor: &mut impl Block
     }
 }
 
-/// Puts all primitives of a block to one query.
-pub(super) struct AllSteps<'a, T: Tier, W, Q> {
+/// Puts all primitives of a block to one query, eight rays to each.
+pub(super) struct EachPrimitive<'a, T: Tier, Q> {
     pub(super) rays: &'a TestRays<T>,
     pub(super) query: &'a mut Q,
-    pub(super) walk: PhantomData<W>,
+    pub(super) pending: &'a mut Pending<T>,
 }
 
-impl<T: Tier, W: Walk, Q: Query<T::Wide>> BlockVisitor for AllSteps<'_, T, W, Q> {
+impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
+    /// First the cheap half of all tests, then what may hit.
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
+        let (mut likely, mut count) = ([(0, 0); WIDTH + 1], 0);
+        for i in 0..block.count() as usize & 15 {
+            let lanes = block.may_hit::<T, RaysByPrimitive>(i, self.rays).bits();
+            likely[count] = (i, lanes);
+            count += usize::from(lanes != 0);
+        }
         let mut accepted = false;
-        for step in 0..W::steps(block.count()) {
-            accepted |= block.visit::<T, W, Q>(step, self.rays, self.query);
+        for &(i, lanes) in &likely[..count] {
+            accepted |= self.pending.ask((block, i), Mask::from_bits(lanes), self.rays, self.query);
         }
         accepted
+    }
+}
+
+/// Puts all primitives of a block to one query, at once to one ray.
+pub(super) struct AllPrimitives<'a, T: Tier, Q> {
+    pub(super) rays: &'a TestRays<T>,
+    pub(super) query: &'a mut Q,
+}
+
+impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for AllPrimitives<'_, T, Q> {
+    #[inline(always)]
+    fn visit<B: Testable>(&mut self, block: &B) -> bool {
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, self.rays);
+        lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, self.rays, self.query)
     }
 }

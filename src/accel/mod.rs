@@ -11,6 +11,7 @@ mod leaf;
 pub mod node;
 mod order;
 mod packet;
+mod pending;
 pub mod query;
 mod ray_scene;
 mod refit;

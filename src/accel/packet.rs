@@ -4,7 +4,12 @@
 
 use super::block::RaysByPrimitive;
 use super::descend::{Descend, Octant};
+use super::Accel;
+use super::leaf::{EachPrimitive, TestRays, with_block};
 use super::node::{ChildRef, Node8};
+use super::pending::Pending;
+use super::query::Query;
+use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
 use crate::math::{Lane, Mask, Vec3, WIDTH, three};
 use wide::f32x8;
@@ -18,7 +23,7 @@ pub(super) struct Entry {
 
 impl Descend for RaysByPrimitive {
     type Entry = Entry;
-    const ONE_RAY: bool = false;
+    type Kept<T: Tier> = Pending<T>;
 
     #[inline(always)]
     fn entry(child: ChildRef) -> Entry {
@@ -53,6 +58,21 @@ impl Descend for RaysByPrimitive {
                 stack.push(Entry { near, child });
             }
         }
+    }
+
+    #[inline(always)]
+    fn visit_leaf<T: Tier, Q: Query<T::Wide>>(
+        accel: &Accel,
+        leaf: ChildRef,
+        rays: &TestRays<T>,
+        query: &mut Q,
+        pending: &mut Pending<T>,
+    ) {
+        with_block(accel, leaf, &mut EachPrimitive { rays, query, pending });
+    }
+    #[inline(always)]
+    fn settle<T: Tier, Q: Query<T::Wide>>(rays: &TestRays<T>, query: &mut Q, pending: &mut Pending<T>) {
+        pending.settle(rays, query);
     }
 }
 

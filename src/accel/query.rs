@@ -11,6 +11,10 @@ pub trait Query<L: Lane> {
     fn limit(&self) -> L;
     /// Takes note of candidates; true if any was accepted.
     fn accept(&mut self, ray: &RayLanes<L>, hit: &LaneHit<L>, ids: L::Bits) -> bool;
+    /// Takes hits of lanes that are certainly nearer than what they hold, at `t` or before.
+    fn take(&mut self, lanes: L::Mask, t: L, ids: L::Bits);
+    /// Puts the distances of hits so taken in place.
+    fn settle(&mut self, lanes: L::Mask, hit: &LaneHit<L>);
     /// True when no lane needs anything more.
     fn is_done(&self) -> bool;
     /// Candidates from now on are seen through this instance; 0 is none.
@@ -100,13 +104,23 @@ impl<L: Lane> Query<L> for Closest<L> {
         if !closer.any() {
             return false;
         }
-        self.t = L::select(closer, hit.t, self.t);
-        self.u = L::select(closer, hit.u, self.u);
-        self.v = L::select(closer, hit.v, self.v);
-        self.prim = L::select_bits(closer, ids, self.prim);
-        self.instance = L::select_bits(closer, L::Bits::splat(self.current_instance), self.instance);
-        self.limit = self.t;
+        self.take(closer, hit.t, ids);
+        self.settle(closer, hit);
         true
+    }
+    #[inline(always)]
+    fn take(&mut self, lanes: L::Mask, t: L, ids: L::Bits) {
+        self.t = L::select(lanes, t, self.t);
+        self.prim = L::select_bits(lanes, ids, self.prim);
+        self.instance = L::select_bits(lanes, L::Bits::splat(self.current_instance), self.instance);
+        self.limit = self.t;
+    }
+    #[inline(always)]
+    fn settle(&mut self, lanes: L::Mask, hit: &LaneHit<L>) {
+        self.t = L::select(lanes, hit.t, self.t);
+        self.u = L::select(lanes, hit.u, self.u);
+        self.v = L::select(lanes, hit.v, self.v);
+        self.limit = self.t;
     }
     #[inline(always)]
     fn is_done(&self) -> bool {
@@ -186,15 +200,21 @@ impl<L: Lane> Query<L> for AnyHit<L> {
         self.limit
     }
     #[inline(always)]
-    fn accept(&mut self, ray: &RayLanes<L>, hit: &LaneHit<L>, _: L::Bits) -> bool {
+    fn accept(&mut self, ray: &RayLanes<L>, hit: &LaneHit<L>, ids: L::Bits) -> bool {
         let found = hit.mask & hit.t.gt(ray.t_min) & hit.t.lt(self.limit);
         if !found.any() {
             return false;
         }
-        self.hit = self.hit | found;
-        self.limit = L::select(found, L::constant(f64::NEG_INFINITY), self.limit);
+        self.take(found, hit.t, ids);
         true
     }
+    #[inline(always)]
+    fn take(&mut self, lanes: L::Mask, _: L, _: L::Bits) {
+        self.hit = self.hit | lanes;
+        self.limit = L::select(lanes, L::constant(f64::NEG_INFINITY), self.limit);
+    }
+    #[inline(always)]
+    fn settle(&mut self, _: L::Mask, _: &LaneHit<L>) {}
     #[inline(always)]
     fn is_done(&self) -> bool {
         !(self.asked & !self.hit).any()

@@ -4,7 +4,11 @@
 
 use super::block::PrimitivesByRay;
 use super::descend::{Descend, Octant};
+use super::Accel;
+use super::leaf::{AllPrimitives, TestRays, with_block};
 use super::node::{ChildRef, Node8};
+use super::query::Query;
+use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
 use crate::math::{Lane, Mask, Vec3, WIDTH};
 use wide::f32x8;
@@ -25,7 +29,7 @@ impl Entry {
 
 impl Descend for PrimitivesByRay {
     type Entry = Entry;
-    const ONE_RAY: bool = true;
+    type Kept<T: Tier> = ();
 
     #[inline(always)]
     fn entry(child: ChildRef) -> Entry {
@@ -66,4 +70,19 @@ impl Descend for PrimitivesByRay {
             }
         }
     }
+
+    #[inline(always)]
+    fn visit_leaf<T: Tier, Q: Query<T::Wide>>(
+        accel: &Accel,
+        leaf: ChildRef,
+        rays: &TestRays<T>,
+        query: &mut Q,
+        (): &mut (),
+    ) {
+        if with_block(accel, leaf, &mut AllPrimitives { rays, query }) {
+            query.share_limit();
+        }
+    }
+    #[inline(always)]
+    fn settle<T: Tier, Q: Query<T::Wide>>(_: &TestRays<T>, _: &mut Q, (): &mut ()) {}
 }

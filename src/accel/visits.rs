@@ -1,11 +1,9 @@
 //! How much of a tree a ray visits: the measure of a tree apart from the speed of a machine.
 
-use std::marker::PhantomData;
-
 use super::Accel;
 use super::block::PrimitivesByRay;
 use super::descend::{Descend, Octant};
-use super::leaf::{AllSteps, PreparedRays, with_block};
+use super::leaf::{AllPrimitives, PreparedRays, with_block};
 use super::node::ChildRef;
 use super::query::{Closest, Query};
 use crate::intersect::{Ray, RayLanes, Tier, Watertight};
@@ -51,9 +49,8 @@ impl Accel {
                 continue;
             }
             visits.blocks += 1;
-            let mut steps =
-                AllSteps { rays: &rays.test, query: &mut query, walk: PhantomData::<PrimitivesByRay> };
-            if child.kind() != Self::INSTANCE && with_block(self, child, &mut steps) {
+            let mut all = AllPrimitives { rays: &rays.test, query: &mut query };
+            if child.kind() != Self::INSTANCE && with_block(self, child, &mut all) {
                 query.share_limit();
                 visits.hits = 1;
             }

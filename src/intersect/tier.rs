@@ -2,7 +2,7 @@
 
 use wide::{f32x8, f64x8};
 
-use super::triangle::{ExactVolumes, MollerTrumbore, Woop};
+use super::triangle::{ExactVolumes, Glimpse, MollerTrumbore, Woop};
 use super::{LaneHit, RayLanes, cylinder, sphere};
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
 
@@ -22,7 +22,16 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
         vertices: [Vec3<L>; 3],
         limit: L,
     ) -> LaneHit<L>;
-    /// Meets rays with triangles: the two of above.
+    /// What is certain of a meeting without [`TriangleTest::hit`], where there is a cheap way to tell.
+    #[inline(always)]
+    fn glimpse<L: Lane>(
+        _: &RayLanes<L>,
+        _: &Self::Prepared<L>,
+        _vertices: [Vec3<L>; 3],
+    ) -> Option<Glimpse<L>> {
+        None
+    }
+    /// Meets rays with triangles: [`TriangleTest::hit`] where they may.
     #[inline(always)]
     fn test<L: Lane>(
         ray: &RayLanes<L>,

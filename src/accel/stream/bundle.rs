@@ -15,6 +15,7 @@ use crate::accel::descend::descend;
 use crate::accel::instance::TreeRoot;
 use crate::accel::leaf::{BlockVisitor, PreparedRays, TestRays, Testable, with_block};
 use crate::accel::node::ChildRef;
+use crate::accel::pending::Pending;
 use crate::accel::query::Query;
 use crate::accel::{packet, single};
 use crate::intersect::{RayLanes, Tier};
@@ -34,6 +35,9 @@ pub(super) struct Workplace<T: Tier> {
     pairs: Candidates<{ room_for(WIDTH) }>,
     /// Those that may hit, with the lanes that may.
     likely: [(Candidate, u32); room_for(WIDTH)],
+    pending: [Pending<T>; WIDTH],
+    /// For bundles inside of instances.
+    inner: Option<Box<Self>>,
 }
 
 impl<T: Tier> Default for Workplace<T> {
@@ -43,6 +47,8 @@ impl<T: Tier> Default for Workplace<T> {
             is_prepared: 0,
             pairs: Candidates::default(),
             likely: [(Candidate::default(), 0); room_for(WIDTH)],
+            pending: [Pending::default(); WIDTH],
+            inner: None,
         }
     }
 }
@@ -88,6 +94,14 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
 
     /// Puts everything below `root` to the queries that their rays may hit; false if given up.
     pub(super) fn descend(&mut self, accel: &Accel, root: u32, stacks: &mut Stacks) -> bool {
+        let done = self.visit_all(accel, root, stacks);
+        self.settle_all();
+        done
+    }
+
+    /// [`Self::descend`] but for the distances that wait.
+    #[inline(always)]
+    fn visit_all(&mut self, accel: &Accel, root: u32, stacks: &mut Stacks) -> bool {
         let base = stacks.bundle.len();
         stacks.bundle.push(single::Entry::new(f32::NEG_INFINITY, ChildRef::node(root)));
         while stacks.bundle.len() > base
@@ -133,13 +147,15 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             std::array::from_fn(|j| Accel::local_rays(&placed.to_world, &self.rays[j.min(count - 1)]));
         let (rays, apex) = (&local[..count], self.frustum.apex().in_space_of(&placed.to_world));
         self.queries.iter_mut().for_each(|query| query.enter_instance(placed.row + 1));
-        let mut work = Workplace::default();
+        self.settle_all();
+        let mut work = self.work.inner.take().unwrap_or_default();
         let inside = Bundle::<T, Q>::new(rays, apex, placed.tree, &mut work, self.queries);
         let done = inside.is_some_and(|mut inside| {
             let done = inside.descend(accel, root, stacks);
             self.met += inside.met;
             done
         });
+        self.work.inner = Some(work);
         for (j, query) in self.queries.iter_mut().enumerate() {
             if !done {
                 let rays = PreparedRays::new(local[j], placed.tree);
@@ -209,13 +225,24 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
     #[inline(always)]
     fn ask_likely<B: Testable>(&mut self, block: &B, count: usize) -> u32 {
         let mut accepted = 0;
-        for &(pair, lanes) in &self.work.likely[..count] {
+        for k in 0..count {
+            let (pair, lanes) = self.work.likely[k];
             let (i, j) = (pair.row(), pair.lane());
             let (rays, query) = (&self.work.prepared[j], &mut self.queries[j]);
-            let accepts = block.ask::<T, RaysByPrimitive, Q>(i, Mask::from_bits(lanes), rays, query);
+            let accepts = self.work.pending[j].ask((block, i), Mask::from_bits(lanes), rays, query);
             accepted |= u32::from(accepts) << j;
         }
         accepted
+    }
+
+    /// Finds all distances that wait.
+    fn settle_all(&mut self) {
+        let mut left = if Q::ANY { 0 } else { self.work.is_prepared };
+        while left != 0 {
+            let j = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            self.work.pending[j].settle(&self.work.prepared[j], &mut self.queries[j]);
+        }
     }
 
     /// Draws in what packets that found something look for.

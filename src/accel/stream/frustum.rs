@@ -232,7 +232,7 @@ impl Frustum {
     /// Of eight triangles, those that rays may meet.
     #[inline(always)]
     pub(super) fn triangles(&self, edges: &Edges) -> u32 {
-        edges.met(&self.all_about_middle) & edges.nearest.le(f32x8::splat(self.reach)).bits()
+        edges.met(&self.all_about_middle, f32x8::splat(self.reach))
     }
 
     /// Packets that may meet triangle `i`.
@@ -242,9 +242,11 @@ impl Frustum {
             normal: three(|e| Vec3::splat(edges.normal[e].get(i))),
             pad: f32x8::splat(edges.pad.get(i)),
             nearest: f32x8::splat(edges.nearest.get(i)),
+            farthest: f32x8::splat(edges.farthest.get(i)),
+            volume: f32x8::splat(edges.volume.get(i)),
         };
         let reach = f32x8::new(self.packet_reach) + self.side_pad;
-        one.met(&self.packets_about_middle) & one.nearest.le(reach).bits()
+        one.met(&self.packets_about_middle, reach)
     }
 
     /// How rays see things.

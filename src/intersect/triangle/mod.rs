@@ -1,12 +1,14 @@
 //! Ray against triangle.
 
 mod exact;
+mod glimpse;
 mod moller_trumbore;
 mod near;
 pub mod oracle;
 mod woop;
 
 pub use exact::ExactVolumes;
+pub use glimpse::Glimpse;
 pub use moller_trumbore::MollerTrumbore;
 pub use woop::Woop;
 

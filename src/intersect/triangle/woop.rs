@@ -11,7 +11,7 @@
 //!   short rays; `t` is confined to the own box;
 //! - the point so found must be one of the triangle within rounding, else [`near`] finds the one that is.
 
-use super::{near, plane_coordinates};
+use super::{Glimpse, near, plane_coordinates};
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, three};
@@ -28,6 +28,8 @@ pub struct Shear<L: Lane> {
     shared: Option<u8>,
     shear_x: L,
     shear_y: L,
+    /// How much `t` grows along the axis.
+    per_z: L,
     own: OwnBox<L>,
 }
 
@@ -38,10 +40,10 @@ impl<L: Lane> Shear<L> {
         let along_y = !along_x & size.y.ge(size.z);
         let own = OwnBox::new(ray.origin, ray.direction);
         let shared = shared_axis::<L>(along_x, along_y);
-        let mut s = Self { along_x, along_y, shared, shear_x: L::zero(), shear_y: L::zero(), own };
+        let (shear_x, shear_y, per_z) = (L::zero(), L::zero(), L::one());
+        let mut s = Self { along_x, along_y, shared, shear_x, shear_y, per_z, own };
         let d = s.permute(ray.direction);
-        s.shear_x = d.x / d.z;
-        s.shear_y = d.y / d.z;
+        (s.shear_x, s.shear_y, s.per_z) = (d.x / d.z, d.y / d.z, L::one() / d.z);
         s
     }
 
@@ -62,8 +64,15 @@ impl<L: Lane> Shear<L> {
     /// The two coordinates across the ray of a point relative to the origin.
     #[inline(always)]
     fn across(&self, p: Vec3<L>) -> (L, L) {
+        let [x, y, _] = self.sheared(p);
+        (x, y)
+    }
+
+    /// The same, and the one along it.
+    #[inline(always)]
+    fn sheared(&self, p: Vec3<L>) -> [L; 3] {
         let p = self.permute(p);
-        (p.x - self.shear_x * p.z, p.y - self.shear_y * p.z)
+        [p.x - self.shear_x * p.z, p.y - self.shear_y * p.z, p.z]
     }
 }
 
@@ -100,6 +109,13 @@ impl TriangleTest for Woop {
         limit: L,
     ) -> LaneHit<L> {
         within_own_box(lanes, ray, &shear.own, v, limit)
+    }
+
+    #[inline(always)]
+    fn glimpse<L: Lane>(ray: &RayLanes<L>, shear: &Shear<L>, v: [Vec3<L>; 3]) -> Option<Glimpse<L>> {
+        let [a, b, c] = three(|k| v[k] - ray.origin);
+        let reach = a.abs().max(b.abs()).max(c.abs()).max_component();
+        Some(Glimpse::of([shear.sheared(a), shear.sheared(b), shear.sheared(c)], reach, shear.per_z))
     }
 
     type OneRay<R: Real> = OneShear<R>;

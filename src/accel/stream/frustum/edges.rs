@@ -3,7 +3,7 @@
 use wide::f32x8;
 
 use super::slopes::Slopes;
-use crate::math::{Lane, Mask, Vec3, fused_cross, three};
+use crate::math::{Lane, Mask, Vec3, fused_cross, fused_dot, three};
 
 /// Edge functions of eight triangles: the ray of slopes `a` and `b` about the middle passes edge `i` on the side that the
 /// sign of `normal[i] . (a, b, 1)` tells, if it is farther from zero than the pad.
@@ -14,8 +14,11 @@ use crate::math::{Lane, Mask, Vec3, fused_cross, three};
 pub(in super::super) struct Edges {
     pub(super) normal: [Vec3<f32x8>; 3],
     pub(super) pad: f32x8,
-    /// Least `z`.
+    /// Least and greatest `z`.
     pub(super) nearest: f32x8,
+    pub(super) farthest: f32x8,
+    /// Six times the volume between the apex and the triangle: `z` is this over `sum of normal . (a, b, 1)`.
+    pub(super) volume: f32x8,
 }
 
 impl Edges {
@@ -25,16 +28,20 @@ impl Edges {
         let [a, b, c] = three(|v| shear(corners[v]));
         let size = a.abs().max(b.abs()).max(c.abs());
         let across = Lane::max(size.x, size.y) + spread * size.z;
+        let normal = [fused_cross(b, c), fused_cross(c, a), fused_cross(a, b)];
         Self {
-            normal: [fused_cross(b, c), fused_cross(c, a), fused_cross(a, b)],
+            normal,
             pad: pad * across,
             nearest: a.z.min(b.z).min(c.z),
+            farthest: a.z.max(b.z).max(c.z),
+            volume: fused_dot(normal[0], a),
         }
     }
 
-    /// Lanes where not all rays pass on the outer side of one edge.
+    /// Lanes where not all rays pass on the outer side of one edge, and not all meet the plane of the triangle beyond their
+    /// reach.
     #[inline(always)]
-    pub(super) fn met(&self, slopes: &Slopes) -> u32 {
+    pub(super) fn met(&self, slopes: &Slopes, reach: f32x8) -> u32 {
         let ([n0, n1, n2], pad) = (self.normal, self.pad);
         let range = |n: Vec3<f32x8>| {
             let (a0, a1) = (slopes.a[0] * n.x, slopes.a[1] * n.x);
@@ -48,6 +55,10 @@ impl Edges {
         let least_of_greatest = r0.1.min(r1.1).min(r2.1);
         let greatest_of_least = r0.0.max(r1.0).max(r2.0);
         let missed = (front & least_of_greatest.lt(-pad)) | (back & greatest_of_least.gt(pad));
-        (!missed).bits()
+        // The volume is off by less than the pad at the farthest corner.
+        let slack = pad * self.farthest.abs();
+        let beyond = (front & (self.volume - slack).gt(reach * (whole.1 + pad)))
+            | (back & (-self.volume - slack).gt(reach * (pad - whole.0)));
+        (self.nearest.le(reach) & !(missed | beyond)).bits()
     }
 }

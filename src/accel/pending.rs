@@ -1,0 +1,96 @@
+//! Hits that are certain but for their exact distance.
+//!
+//! Plainly: of each hit the distance is found in `f64`, and the nearest counts. Departure: where bounds on the distance
+//! tell which of two hits is nearer, the distance waits, and is found for the nearest alone.
+
+use super::block::RaysByPrimitive;
+use super::leaf::{Lanes, TestRays, Testable};
+use super::query::Query;
+use crate::intersect::triangle::Glimpse;
+use crate::intersect::{Tier, TriangleTest};
+use crate::math::{BitLane, Lane, Mask, Vec3};
+
+/// The hits of a packet whose distance waits. The query of the packet holds a bound from above in its place.
+#[derive(Clone, Copy)]
+pub(super) struct Pending<T: Tier> {
+    lanes: Lanes<T>,
+    /// Bounds from below.
+    near: T::Wide,
+    /// The triangles that were hit.
+    corners: [Vec3<T::Wide>; 3],
+}
+
+impl<T: Tier> Default for Pending<T> {
+    fn default() -> Self {
+        Self { lanes: Mask::splat(false), near: T::Wide::zero(), corners: [Vec3::zero(); 3] }
+    }
+}
+
+impl<T: Tier> Pending<T> {
+    /// Puts lanes that may hit primitive `i` of a block to the query, in full only where bounds say too little; true if
+    /// any was accepted.
+    #[inline(always)]
+    pub(super) fn ask<B: Testable, Q: Query<T::Wide>>(
+        &mut self,
+        (block, i): (&B, usize),
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        query: &mut Q,
+    ) -> bool {
+        let Some((seen, corners)) = block.glimpse::<T, RaysByPrimitive>(i, rays) else {
+            self.settle(rays, query);
+            return block.ask::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
+        };
+        let (certain, unclear) = self.sort(lanes, &seen, rays.ray.t_min, query.limit());
+        let mut accepted = certain.any();
+        if unclear.any() {
+            self.settle(rays, query);
+            accepted |= block.ask::<T, RaysByPrimitive, Q>(i, unclear, rays, query);
+        }
+        query.take(certain, seen.far, BitLane::splat(block.ids()[i]));
+        if !Q::ANY {
+            self.put(certain, seen.near, &corners);
+        }
+        accepted
+    }
+
+    /// Of lanes that may be hit, those that certainly are, nearer than anything so far; and those that bounds say too
+    /// little about. The others need nothing.
+    #[inline(always)]
+    fn sort(
+        &self,
+        lanes: Lanes<T>,
+        seen: &Glimpse<T::Wide>,
+        t_min: T::Wide,
+        limit: T::Wide,
+    ) -> (Lanes<T>, Lanes<T>) {
+        let nearest = Lane::select(self.lanes, self.near, limit);
+        let out = seen.hits & (seen.near.gt(limit) | seen.far.le(t_min));
+        let certain = lanes & seen.hits & seen.far.lt(nearest) & seen.near.gt(t_min) & !out;
+        (certain, lanes & !(certain | out))
+    }
+
+    /// Takes hits in place of what their lanes held.
+    #[inline(always)]
+    fn put(&mut self, lanes: Lanes<T>, near: T::Wide, corners: &[Vec3<T::Wide>; 3]) {
+        self.lanes = self.lanes | lanes;
+        self.near = Lane::select(lanes, near, self.near);
+        for (kept, corner) in self.corners.iter_mut().zip(corners) {
+            *kept = Vec3::select(lanes, *corner, *kept);
+        }
+    }
+
+    /// Finds the distances that wait.
+    #[inline(always)]
+    pub(super) fn settle(&mut self, rays: &TestRays<T>, query: &mut impl Query<T::Wide>) {
+        if !self.lanes.any() {
+            return;
+        }
+        let far = query.limit();
+        let hit = T::Triangle::hit(self.lanes, &rays.ray, &rays.triangle, self.corners, far);
+        let within = hit.mask & self.near.le(hit.t) & hit.t.le(far);
+        debug_assert_eq!(self.lanes.bits() & !within.bits(), 0, "{:?} {hit:?}", self.corners);
+        query.settle(self.lanes, &hit);
+        self.lanes = Mask::splat(false);
+    }
+}

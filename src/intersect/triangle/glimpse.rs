@@ -1,0 +1,58 @@
+//! What the edge functions of the watertight test tell for certain, so that `f64` need not be asked for each hit.
+//!
+//! Plainly: a triangle whose edge functions are all clearly of one sign is hit, and at a distance that their weights tell
+//! within bounds. Only the hit that is nearest in the end needs the exact distance, and a shadow ray none.
+//!
+//! With `u` the roundoff of `f32` and `M` the largest coordinate of the corners relative to the origin:
+//! - a coordinate across the ray is off by at most `6 u M` (1 for the difference to the origin, 3 for the product with the
+//!   shear, 2 for the last difference), so an edge function of coordinates up to `A` by less than
+//!   `E = 32 u M (A + 32 u M)`: four products of a coordinate with the error of another, 24; rounding, 8; the rest is for
+//!   products of errors;
+//! - where all three are beyond `E`, with sum `D`, the weights are off by `6 E / D` in all, and what they weigh, the
+//!   corners' coordinates along the ray, by at most half their range times that; rounding adds less than `16 u M`.
+
+use crate::math::{Lane, Real};
+
+/// Roundoffs in an edge function.
+const EDGE_ROUNDOFFS: f64 = 32.0;
+/// Roundoffs along the ray.
+const ALONG_ROUNDOFFS: f64 = 16.0;
+/// Times the range along the ray and `E / D`: 3, and a third more.
+const WEIGHTS_OFF: f64 = 4.0;
+
+/// Rays that certainly hit their triangles, and where.
+#[derive(Clone, Copy, Debug)]
+pub struct Glimpse<L: Lane> {
+    /// Lanes of which that is known.
+    pub hits: L::Mask,
+    /// No `t` of a hit is below.
+    pub near: L,
+    /// No `t` of a hit is above.
+    pub far: L,
+}
+
+impl<L: Lane> Glimpse<L> {
+    /// From the corners relative to the origin, sheared: two coordinates across the ray and one along it; `per_z` is how
+    /// much `t` grows along the last.
+    #[inline(always)]
+    pub(super) fn of(corners: [[L; 3]; 3], reach: L, per_z: L) -> Self {
+        let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = corners;
+        let e = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
+        let across = largest([ax, ay, bx, by]).max(largest([cx, cy, cx, cy]));
+        let unit = reach * L::constant(EDGE_ROUNDOFFS * f32::ROUNDOFF);
+        let edge_error = unit * (across + unit) + L::constant(f64::from(f32::MIN_POSITIVE));
+        let (least, greatest) = (e[0].min(e[1]).min(e[2]), e[0].max(e[1]).max(e[2]));
+        let share = L::one() / ((e[0] + e[1]) + e[2]);
+        let z = ((e[0] * az + e[1] * bz) + e[2] * cz) * share;
+        let range = az.max(bz).max(cz) - az.min(bz).min(cz);
+        let weights_off = range * (edge_error * share).abs() * L::constant(WEIGHTS_OFF);
+        let apart = weights_off + reach * L::constant(ALONG_ROUNDOFFS * f32::ROUNDOFF);
+        let (t, apart) = (z * per_z, apart * per_z.abs());
+        Self { hits: least.gt(edge_error) | greatest.lt(-edge_error), near: t - apart, far: t + apart }
+    }
+}
+
+#[inline(always)]
+fn largest<L: Lane>([a, b, c, d]: [L; 4]) -> L {
+    a.abs().max(b.abs()).max(c.abs().max(d.abs()))
+}
