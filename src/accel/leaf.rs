@@ -89,7 +89,6 @@ pub(super) trait Testable: Block {
         let hit = self.hit::<T, W>(step, lanes, rays, query.limit());
         query.accept(&rays.ray, &hit, W::ids(self.ids(), step))
     }
-
 }
 
 impl Testable for TriangleBlock {

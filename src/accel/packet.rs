@@ -2,9 +2,9 @@
 //!
 //! An entry on the stack keeps the distance of each ray, so that popping it needs one comparison.
 
+use super::Accel;
 use super::block::RaysByPrimitive;
 use super::descend::{Descend, Octant};
-use super::Accel;
 use super::leaf::{EachPrimitive, TestRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::pending::Pending;

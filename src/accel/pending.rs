@@ -7,7 +7,7 @@ use super::block::RaysByPrimitive;
 use super::leaf::{Lanes, TestRays, Testable};
 use super::query::Query;
 use crate::intersect::triangle::Glimpse;
-use crate::intersect::{Tier, TriangleTest};
+use crate::intersect::{LaneHit, Tier, TriangleTest};
 use crate::math::{BitLane, Lane, Mask, Vec3};
 
 /// The hits of a packet whose distance waits. The query of the packet holds a bound from above in its place.
@@ -80,16 +80,18 @@ impl<T: Tier> Pending<T> {
         }
     }
 
+    fn is_within_bounds(&self, hit: &LaneHit<T::Wide>, far: T::Wide) -> bool {
+        !(self.lanes & !(self.near.le(hit.t) & hit.t.le(far))).any()
+    }
+
     /// Finds the distances that wait.
     #[inline(always)]
     pub(super) fn settle(&mut self, rays: &TestRays<T>, query: &mut impl Query<T::Wide>) {
         if !self.lanes.any() {
             return;
         }
-        let far = query.limit();
-        let hit = T::Triangle::hit(self.lanes, &rays.ray, &rays.triangle, self.corners, far);
-        let within = hit.mask & self.near.le(hit.t) & hit.t.le(far);
-        debug_assert_eq!(self.lanes.bits() & !within.bits(), 0, "{:?} {hit:?}", self.corners);
+        let hit = T::Triangle::settle(&rays.ray, self.corners);
+        debug_assert!(self.is_within_bounds(&hit, query.limit()), "{:?} {:?}", rays.ray, self.corners);
         query.settle(self.lanes, &hit);
         self.lanes = Mask::splat(false);
     }

@@ -2,9 +2,9 @@
 //!
 //! The ray is splatted over the lanes, each lane keeps the best of the primitives it sees, and the lanes share one limit.
 
+use super::Accel;
 use super::block::PrimitivesByRay;
 use super::descend::{Descend, Octant};
-use super::Accel;
 use super::leaf::{AllPrimitives, TestRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::query::Query;

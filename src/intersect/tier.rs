@@ -31,6 +31,11 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
     ) -> Option<Glimpse<L>> {
         None
     }
+    /// Where rays meet triangles that a glimpse told them to hit: as [`TriangleTest::hit`] finds it.
+    #[inline(always)]
+    fn settle<L: Lane>(_: &RayLanes<L>, _vertices: [Vec3<L>; 3]) -> LaneHit<L> {
+        LaneHit::none()
+    }
     /// Meets rays with triangles: [`TriangleTest::hit`] where they may.
     #[inline(always)]
     fn test<L: Lane>(

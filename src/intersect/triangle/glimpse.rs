@@ -10,6 +10,8 @@
 //!   products of errors;
 //! - where all three are beyond `E`, with sum `D`, the weights are off by `6 E / D` in all, and what they weigh, the
 //!   corners' coordinates along the ray, by at most half their range times that; rounding adds less than `16 u M`.
+//!
+//! Where a product may underflow or a quotient overflow, nothing is certain.
 
 use crate::math::{Lane, Real};
 
@@ -19,6 +21,8 @@ const EDGE_ROUNDOFFS: f64 = 32.0;
 const ALONG_ROUNDOFFS: f64 = 16.0;
 /// Times the range along the ray and `E / D`: 3, and a third more.
 const WEIGHTS_OFF: f64 = 4.0;
+/// Edge functions below say nothing: what products with them lose to underflow is no longer small.
+const LEAST_EDGE: f64 = 1e-18;
 
 /// Rays that certainly hit their triangles, and where.
 #[derive(Clone, Copy, Debug)]
@@ -39,16 +43,19 @@ impl<L: Lane> Glimpse<L> {
         let [[ax, ay, az], [bx, by, bz], [cx, cy, cz]] = corners;
         let e = [cx * by - cy * bx, ax * cy - ay * cx, bx * ay - by * ax];
         let across = largest([ax, ay, bx, by]).max(largest([cx, cy, cx, cy]));
+        let tiny = L::constant(f64::from(f32::MIN_POSITIVE));
         let unit = reach * L::constant(EDGE_ROUNDOFFS * f32::ROUNDOFF);
-        let edge_error = unit * (across + unit) + L::constant(f64::from(f32::MIN_POSITIVE));
+        let edge_error = unit * (across + unit) + L::constant(LEAST_EDGE);
         let (least, greatest) = (e[0].min(e[1]).min(e[2]), e[0].max(e[1]).max(e[2]));
         let share = L::one() / ((e[0] + e[1]) + e[2]);
         let z = ((e[0] * az + e[1] * bz) + e[2] * cz) * share;
         let range = az.max(bz).max(cz) - az.min(bz).min(cz);
         let weights_off = range * (edge_error * share).abs() * L::constant(WEIGHTS_OFF);
         let apart = weights_off + reach * L::constant(ALONG_ROUNDOFFS * f32::ROUNDOFF);
-        let (t, apart) = (z * per_z, apart * per_z.abs());
-        Self { hits: least.gt(edge_error) | greatest.lt(-edge_error), near: t - apart, far: t + apart }
+        let (t, apart) = (z * per_z, apart * per_z.abs() + tiny);
+        let (near, far) = (t - apart, t + apart);
+        let in_range = share.abs().ge(tiny) & (far - near).is_finite();
+        Self { hits: (least.gt(edge_error) | greatest.lt(-edge_error)) & in_range, near, far }
     }
 }
 

@@ -1,5 +1,7 @@
 //! The triangle tests against exact arithmetic, and closed meshes that must not leak.
 
+mod glimpse;
+
 use wide::{f32x8, f64x8};
 
 use super::{ExactVolumes, MollerTrumbore, Woop, oracle};

@@ -28,7 +28,7 @@ pub struct Shear<L: Lane> {
     shared: Option<u8>,
     shear_x: L,
     shear_y: L,
-    /// How much `t` grows along the axis.
+    /// How much `t` grows along the axis; NaN where that is out of range.
     per_z: L,
     own: OwnBox<L>,
 }
@@ -43,7 +43,10 @@ impl<L: Lane> Shear<L> {
         let (shear_x, shear_y, per_z) = (L::zero(), L::zero(), L::one());
         let mut s = Self { along_x, along_y, shared, shear_x, shear_y, per_z, own };
         let d = s.permute(ray.direction);
-        (s.shear_x, s.shear_y, s.per_z) = (d.x / d.z, d.y / d.z, L::one() / d.z);
+        (s.shear_x, s.shear_y) = (d.x / d.z, d.y / d.z);
+        let per_z = L::one() / d.z;
+        let is_precise = per_z.abs().ge(L::constant(f64::from(f32::MIN_POSITIVE)));
+        s.per_z = L::select(is_precise, per_z, L::constant(f64::NAN));
         s
     }
 
@@ -116,6 +119,12 @@ impl TriangleTest for Woop {
         let [a, b, c] = three(|k| v[k] - ray.origin);
         let reach = a.abs().max(b.abs()).max(c.abs()).max_component();
         Some(Glimpse::of([shear.sheared(a), shear.sheared(b), shear.sheared(c)], reach, shear.per_z))
+    }
+
+    #[inline(always)]
+    fn settle<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> LaneHit<L> {
+        let (t, u, v) = refine(ray, v);
+        LaneHit { mask: L::Mask::splat(true), t: t + L::zero(), u, v }
     }
 
     type OneRay<R: Real> = OneShear<R>;
