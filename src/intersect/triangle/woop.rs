@@ -28,7 +28,7 @@ pub struct Shear<L: Lane> {
     shared: Option<u8>,
     shear_x: L,
     shear_y: L,
-    /// How much `t` grows along the axis; NaN where that is out of range.
+    /// How much `t` grows along the axis; NaN where the own box may err on so short or long a direction.
     per_z: L,
     own: OwnBox<L>,
 }
@@ -45,8 +45,7 @@ impl<L: Lane> Shear<L> {
         let d = s.permute(ray.direction);
         (s.shear_x, s.shear_y) = (d.x / d.z, d.y / d.z);
         let per_z = L::one() / d.z;
-        let is_precise = per_z.abs().ge(L::constant(f64::from(f32::MIN_POSITIVE)));
-        s.per_z = L::select(is_precise, per_z, L::constant(f64::NAN));
+        s.per_z = L::select(is_moderate(per_z), per_z, L::constant(f64::NAN));
         s
     }
 
@@ -77,6 +76,12 @@ impl<L: Lane> Shear<L> {
         let p = self.permute(p);
         [p.x - self.shear_x * p.z, p.y - self.shear_y * p.z, p.z]
     }
+}
+
+/// True far from where quotients of directions overflow or underflow.
+#[inline(always)]
+fn is_moderate<L: Lane>(x: L) -> L::Mask {
+    x.abs().ge(L::constant(1e-18)) & x.abs().le(L::constant(1e18))
 }
 
 /// The axis that all lanes share, which is the common case in a coherent packet and the only one of a single ray.
