@@ -21,7 +21,7 @@ pub(super) fn background<T: Tier>(
         let direction = queue.direction.gather::<T::Wide>(&paths);
         let seen = worker.frame.scene.background.radiance(direction);
         let radiance = queue.throughput.gather::<T::Wide>(&paths).scale(seen);
-        worker.radiance.add(&paths.map(|path| queue.slot[path]), radiance, lanes);
+        worker.radiance.add(&paths.of(queue.slot), radiance, lanes);
     }
 }
 
