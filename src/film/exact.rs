@@ -8,6 +8,9 @@ use crate::math::{Lane, Mask, Vec3, WIDTH, eight, three};
 /// Largest magnitude of one contribution: 64 of the largest still sum exactly.
 pub const CONTRIBUTION_LIMIT: f32 = 131_072.0;
 
+/// Contributions of this magnitude and less round to nothing: half of 2^-30, and ties go to even.
+const NOTHING: f64 = 1.0 / (1u64 << 31) as f64;
+
 /// Adding and subtracting it leaves a multiple of 2^-30: its own unit in the last place.
 const ROUNDER: f64 = 1.5 * (1u64 << 22) as f64;
 
@@ -15,6 +18,14 @@ const ROUNDER: f64 = 1.5 * (1u64 << 22) as f64;
 #[inline(always)]
 fn quantise<D: Lane<Scalar = f64>>(x: D) -> D {
     (x + D::constant(ROUNDER)) - D::constant(ROUNDER)
+}
+
+/// Whether a contribution would change the sum of a sample. One that is not a number would: it is counted.
+#[inline(always)]
+pub(crate) fn contributes<L: Lane>(rgb: Vec3<L>) -> L::Mask {
+    let nothing = L::constant(NOTHING);
+    let size = rgb.abs();
+    !(size.x.le(nothing) & size.y.le(nothing) & size.z.le(nothing))
 }
 
 /// Radiances of the samples of one wave.
@@ -136,6 +147,18 @@ mod tests {
         assert_eq!((sums.rgb(0), sums.rgb(1), sums.nan_count()), ([0.0; 3], [1.0, 2.0, 3.0], 1));
         sums.reset(1);
         assert_eq!((sums.rgb(0), sums.nan_count()), ([0.0; 3], 0));
+    }
+
+    #[test]
+    fn what_contributes_is_what_changes_a_sum() {
+        for exponent in 20..40 {
+            let power = 1.0 / (1u64 << exponent) as f32;
+            for x in [power, power.next_up(), power.next_down(), -power, -power.next_up()] {
+                assert_eq!(contributes(Vec3 { x: 0.0, y: x, z: 0.0 }), one(x) != 0.0, "{x:e}");
+            }
+        }
+        assert!(contributes(Vec3 { x: 0.0, y: 0.0, z: f32::NAN }));
+        assert!(!contributes(Vec3::<f32>::zero()));
     }
 
     proptest! {

@@ -2,13 +2,13 @@
 
 use bumpalo::Bump;
 
-use super::emit::not_black;
 use super::offset::offset_along;
 use super::queue::{Column3, column, compress_eight, words};
 use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
 use crate::accel::Hint;
 use crate::accel::stream::{Apex, Bound, RayColumns};
+use crate::film::contributes;
 use crate::geometry::{entries, gather3};
 use crate::intersect::Tier;
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
@@ -69,7 +69,7 @@ fn shade<T: Tier, const FRACTION: bool>(
         }
         let reflected = reflected::<T, FRACTION>(worker, surfaces, at, lit.to_light.normalize());
         let radiance = reflected.scale(lit.irradiance).scale(surfaces.throughput.load(at));
-        let wanted = (above & not_black(radiance)).bits() & surfaces.lanes(at);
+        let wanted = (above & contributes(radiance)).bits() & surfaces.lanes(at);
         if wanted == 0 {
             continue;
         }
