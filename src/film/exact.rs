@@ -3,10 +3,13 @@
 //! Contributions to a sample come in any order (queues, chunks, packets). Each is rounded to a multiple of 2^-30 once;
 //! sums of such multiples are exact in `f64` up to 2^23, and exact sums are the same in any order.
 
-use crate::math::{Lane, Mask, Vec3, WIDTH, three};
+use crate::math::{Lane, Mask, Vec3, WIDTH, eight, three};
 
 /// Largest magnitude of one contribution: 64 of the largest still sum exactly.
 pub const CONTRIBUTION_LIMIT: f32 = 131_072.0;
+
+/// Contributions of this magnitude and less round to nothing: half of 2^-30, and ties go to even.
+const NOTHING: f64 = 1.0 / (1u64 << 31) as f64;
 
 /// Adding and subtracting it leaves a multiple of 2^-30: its own unit in the last place.
 const ROUNDER: f64 = 1.5 * (1u64 << 22) as f64;
@@ -17,21 +20,32 @@ fn quantise<D: Lane<Scalar = f64>>(x: D) -> D {
     (x + D::constant(ROUNDER)) - D::constant(ROUNDER)
 }
 
+/// Whether a contribution would change the sum of a sample. One that is not a number would: it is counted.
+#[inline(always)]
+pub(crate) fn contributes<L: Lane>(rgb: Vec3<L>) -> L::Mask {
+    let nothing = L::constant(NOTHING);
+    let size = rgb.abs();
+    !(size.x.le(nothing) & size.y.le(nothing) & size.z.le(nothing))
+}
+
 /// Radiances of the samples of one wave.
 ///
 /// **Accuracy:** a contribution is confined to [`CONTRIBUTION_LIMIT`] and rounded to a multiple of 2^-30; sums are exact
 /// up to 2^23.
 #[derive(Clone, Debug, Default)]
 pub struct SampleSums {
-    sums: Vec<[f64; 3]>,
+    /// By channel; padded, so that eight may be read from any sample on.
+    sums: [Vec<f64>; 3],
     nan_count: u64,
 }
 
 impl SampleSums {
     /// Makes room for `count` samples, all black, and forgets the NaN count; keeps memory.
     pub fn reset(&mut self, count: usize) {
-        self.sums.clear();
-        self.sums.resize(count, [0.0; 3]);
+        for channel in &mut self.sums {
+            channel.clear();
+            channel.resize(count + WIDTH, 0.0);
+        }
         self.nan_count = 0;
     }
 
@@ -42,10 +56,33 @@ impl SampleSums {
         let lanes = self.without_nan(lanes, numbers.bits());
         let limit = L::constant(f64::from(CONTRIBUTION_LIMIT));
         let exact = |c: L| quantise(c.clamp(-limit, limit).widen());
-        let (r, g, b) = (exact(rgb.x), exact(rgb.y), exact(rgb.z));
-        for i in (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0) {
-            let sum = &mut self.sums[samples[i] as usize];
-            *sum = [sum[0] + r.get(i), sum[1] + g.get(i), sum[2] + b.get(i)];
+        let rgb = [exact(rgb.x), exact(rgb.y), exact(rgb.z)];
+        if *samples == eight(|i| samples[0].wrapping_add(i as u32)) {
+            self.add_run(samples[0] as usize, rgb, lanes);
+        } else {
+            self.add_each(samples, rgb, lanes);
+        }
+    }
+
+    /// Samples that follow each other, as they do where neighbours see the same.
+    #[inline(always)]
+    fn add_run<D: Lane<Scalar = f64>>(&mut self, first: usize, rgb: [D; 3], lanes: u32) {
+        let wanted = D::Mask::from_bits(lanes);
+        for (sums, more) in self.sums.iter_mut().zip(rgb) {
+            let sums = &mut sums[first..];
+            (D::load(sums) + D::select(wanted, more, D::zero())).store(sums);
+        }
+    }
+
+    #[inline(never)]
+    fn add_each<D: Lane<Scalar = f64>>(&mut self, samples: &[u32; WIDTH], rgb: [D; 3], lanes: u32) {
+        let count = self.sums[0].len();
+        let [r, g, b] = self.sums.each_mut().map(|sums| &mut sums[..count]);
+        for i in (0..D::WIDTH).filter(|i| lanes >> i & 1 != 0) {
+            let sample = samples[i] as usize;
+            r[sample] += rgb[0].get(i);
+            g[sample] += rgb[1].get(i);
+            b[sample] += rgb[2].get(i);
         }
     }
 
@@ -60,8 +97,7 @@ impl SampleSums {
     /// The radiance of a sample.
     #[inline(always)]
     pub fn rgb(&self, sample: usize) -> [f32; 3] {
-        let sum = &self.sums[sample];
-        three(|c| sum[c] as f32)
+        three(|c| self.sums[c][sample] as f32)
     }
 
     /// Contributions left out since the last reset because they were not numbers.
@@ -113,6 +149,18 @@ mod tests {
         assert_eq!((sums.rgb(0), sums.nan_count()), ([0.0; 3], 0));
     }
 
+    #[test]
+    fn what_contributes_is_what_changes_a_sum() {
+        for exponent in 20..40 {
+            let power = 1.0 / (1u64 << exponent) as f32;
+            for x in [power, power.next_up(), power.next_down(), -power, -power.next_up()] {
+                assert_eq!(contributes(Vec3 { x: 0.0, y: x, z: 0.0 }), one(x) != 0.0, "{x:e}");
+            }
+        }
+        assert!(contributes(Vec3 { x: 0.0, y: 0.0, z: f32::NAN }));
+        assert!(!contributes(Vec3::<f32>::zero()));
+    }
+
     proptest! {
         /// The largest and the smallest together, forwards and backwards.
         #[test]
@@ -122,7 +170,7 @@ mod tests {
                 let mut sums = SampleSums::default();
                 sums.reset(1);
                 values.iter().for_each(|&x| sums.add(&[0; WIDTH], Vec3 { x, y: x, z: -x }, 1));
-                sums.sums[0].map(f64::to_bits)
+                three(|c| sums.sums[c][0].to_bits())
             };
             let forwards = sum(&values);
             values.reverse();

@@ -11,6 +11,7 @@ mod tone;
 
 pub use accumulate::{BlockNode, BlockTree, NotAdjacent, PixelSum, SAMPLES_PER_BLOCK, total};
 pub use aov::{Aov, AovSample, AovSet};
+pub(crate) use exact::contributes;
 pub use exact::{CONTRIBUTION_LIMIT, SampleSums};
 pub use image::{Film, Plane, PlaneValues, Rgb8};
 pub use partial::{TileSums, joined, node_places};

@@ -210,11 +210,15 @@ impl Geometry {
     }
     /// The material row of a primitive.
     pub fn material(&self, kind: PrimKind, row: usize) -> u32 {
+        self.materials(kind)[row]
+    }
+    /// Material rows of the primitives of a kind.
+    pub(crate) fn materials(&self, kind: PrimKind) -> &[u32] {
         match kind {
-            PrimKind::Triangle => self.triangles.material[row],
-            PrimKind::Sphere => self.spheres.material[row],
-            PrimKind::Cylinder => self.cylinders.material[row],
-            PrimKind::Plane => self.planes.material[row],
+            PrimKind::Triangle => &self.triangles.material,
+            PrimKind::Sphere => &self.spheres.material,
+            PrimKind::Cylinder => &self.cylinders.material,
+            PrimKind::Plane => &self.planes.material,
         }
     }
 }

@@ -5,12 +5,12 @@ use super::generate::generate_centres;
 use super::queue::{list_lanes, set_bits};
 use super::run::Arenas;
 use super::surface::{HitLanes, SurfaceLanes, evaluate};
-use super::surface_queue::{facing, gather_hits, material_of, texture_color};
+use super::surface_queue::{facing, gather_hits, materials_of, texture_color};
 use super::wave::Worker;
 use crate::film::{Aov, AovSample};
 use crate::geometry::gather3;
 use crate::intersect::{PrimKind, Tier};
-use crate::math::{Lane, Real, Vec3, WIDTH, eight};
+use crate::math::{Lane, Real, Vec3, WIDTH};
 use crate::scene::Scene;
 
 /// Looks through the centres of the pixels of one tile: a sample for each, in the same order.
@@ -55,7 +55,7 @@ struct Looked<'a, L: Lane> {
 
 impl<'a, L: Lane> Looked<'a, L> {
     fn new(scene: &Scene, kind: PrimKind, hit: &'a HitLanes<L>, surface: &'a SurfaceLanes<L>) -> Self {
-        let materials = eight(|i| material_of(scene, kind, hit.row[i], hit.instance[i]));
+        let materials = materials_of(scene, kind, hit);
         let albedo = match scene.settings.aovs.has(Aov::Albedo) {
             true => albedo(scene, &materials, surface.uv),
             false => Vec3::splat_f32([0.0; 3]),

@@ -2,14 +2,14 @@
 
 use bumpalo::Bump;
 
-use super::emit::not_black;
 use super::offset::offset_along;
-use super::queue::{Column3, column, compress_words, words};
+use super::queue::{Column3, column, compress_eight, words};
 use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
 use crate::accel::Hint;
 use crate::accel::stream::{Apex, Bound, RayColumns};
-use crate::geometry::gather3;
+use crate::film::contributes;
+use crate::geometry::{entries, gather3};
 use crate::intersect::Tier;
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
 use crate::scene::Light;
@@ -69,7 +69,7 @@ fn shade<T: Tier, const FRACTION: bool>(
         }
         let reflected = reflected::<T, FRACTION>(worker, surfaces, at, lit.to_light.normalize());
         let radiance = reflected.scale(lit.irradiance).scale(surfaces.throughput.load(at));
-        let wanted = (above & not_black(radiance)).bits() & surfaces.lanes(at);
+        let wanted = (above & contributes(radiance)).bits() & surfaces.lanes(at);
         if wanted == 0 {
             continue;
         }
@@ -77,7 +77,7 @@ fn shade<T: Tier, const FRACTION: bool>(
         queue.origin.compress(k, origin, wanted);
         queue.direction.compress(k, lit.to_light, wanted);
         queue.radiance.compress(k, radiance, wanted);
-        compress_words(queue.slot, k, surfaces.slots(at), wanted);
+        compress_eight(queue.slot, k, surfaces.slots(at), wanted);
         queue.len += wanted.count_ones() as usize;
     }
 }
@@ -93,15 +93,18 @@ fn reflected<T: Tier, const FRACTION: bool>(
     let scene = worker.frame.scene;
     let (normal, wo) = (surfaces.shading_normal().load(at), -surfaces.direction.load(at));
     let diffuse = surfaces.diffuse::<T::Wide>(scene, at);
-    if !scene.requirements.highlights {
-        return diffuse * normal.dot(to_light).max(T::Wide::zero());
-    }
     let materials = surfaces.materials(at);
-    let exponent = BitLane::from_fn(|i| scene.materials.shininess[materials[i] as usize]);
+    let zero = T::Wide::zero();
+    let shine = gather3::<T::Wide>(&scene.materials.specular, materials);
+    let shines = scene.requirements.highlights && shine.abs().max_component().gt(zero).any();
+    if !shines {
+        return diffuse * normal.dot(to_light).max(zero);
+    }
+    let shininess = entries(&scene.materials.shininess, materials);
     let bits = scene.requirements.shininess_bits;
     let Lobes { diffuse: cos, specular } =
-        blinn_phong::<T::Wide, FRACTION>(normal, to_light, wo, exponent, bits);
-    diffuse * cos + gather3::<T::Wide>(&scene.materials.specular, materials) * specular
+        blinn_phong::<T::Wide, FRACTION>(normal, to_light, wo, BitLane::from_fn(|i| shininess[i]), bits);
+    diffuse * cos + shine * specular
 }
 
 /// Traces shadow rays up to the light.

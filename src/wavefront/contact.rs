@@ -12,8 +12,8 @@
 use super::medium::{Media, NO_BODY, body_of, innermost, is_inside, material_of_body, sphere_of};
 use super::queue::Rows;
 use super::surface::{HitLanes, SurfaceLanes, evaluate};
-use super::surface_queue::{from_inside, material_of};
-use crate::geometry::Geometry;
+use super::surface_queue::{from_inside, materials_of};
+use crate::geometry::{Geometry, entries};
 use crate::intersect::PrimKind;
 use crate::math::{Lane, Mask, Vec3, WIDTH, eight};
 use crate::scene::{Scatter, Scene};
@@ -26,6 +26,8 @@ const NEAR: f64 = 4.0;
 pub(super) struct Met<L: Lane> {
     pub(super) surface: SurfaceLanes<L>,
     pub(super) materials: [u32; WIDTH],
+    /// What becomes of rays there.
+    pub(super) scatter: [Scatter; WIDTH],
     /// The ray comes from inside, against the outward normal.
     pub(super) inside: L::Mask,
     /// What the surface bounds, see [`super::medium`]; none for a surface that is passed as if it were not there.
@@ -33,31 +35,34 @@ pub(super) struct Met<L: Lane> {
 }
 
 impl<L: Lane> Met<L> {
-    /// The surfaces of hits. `media` is what the paths are inside of.
+    /// The surfaces of hits. `media` is what paths are inside of, empty in scenes without dielectrics.
     #[inline(always)]
     pub(super) fn new(
         scene: &Scene,
         kind: PrimKind,
         hit: &HitLanes<L>,
-        media: Option<&[Media; WIDTH]>,
+        media: &[Media],
+        paths: &Rows,
     ) -> Self {
         let surface = evaluate(&scene.geometry, kind, hit);
-        let materials = eight(|i| material_of(scene, kind, hit.row[i], hit.instance[i]));
+        let materials = materials_of(scene, kind, hit);
+        let scatter = entries(&scene.materials.scatter, &materials);
         let inside = from_inside(hit.direction, &surface);
-        let mut met = Self { surface, materials, inside, bodies: [NO_BODY; WIDTH] };
-        if let Some(media) = media {
-            met.bodies = eight(|i| match scene.materials.scatter[materials[i] as usize] {
+        let mut met = Self { surface, materials, scatter, inside, bodies: [NO_BODY; WIDTH] };
+        if !media.is_empty() && scatter.contains(&Scatter::Dielectric) {
+            met.bodies = eight(|i| match scatter[i] {
                 Scatter::Dielectric => body_of(kind, hit.row[i], hit.instance[i], materials[i]),
                 _ => NO_BODY,
             });
-            met.settle(&scene.geometry, hit, media);
+            met.settle(scene, hit, &paths.of(media));
         }
         met
     }
 
     /// Puts right what rounding has put in the wrong order.
     #[inline(always)]
-    fn settle(&mut self, geometry: &Geometry, hit: &HitLanes<L>, media: &[Media; WIDTH]) {
+    fn settle(&mut self, scene: &Scene, hit: &HitLanes<L>, media: &[Media; WIDTH]) {
+        let geometry = &scene.geometry;
         let inside = self.inside.bits();
         let (mut unseen, mut other) = (0, 0);
         for (i, &state) in media.iter().enumerate() {
@@ -73,6 +78,7 @@ impl<L: Lane> Met<L> {
         }
         if other != 0 {
             self.leave_first(geometry, hit, other, media.map(innermost));
+            self.scatter = entries(&scene.materials.scatter, &self.materials);
         }
     }
 
@@ -121,9 +127,4 @@ fn surface_at<L: Lane>(
     let surface = evaluate(geometry, PrimKind::Sphere, &at);
     let off = (surface.point - points).abs().max_component();
     (surface, L::Mask::from_bits(lanes) & off.le(surface.error * L::constant(NEAR)))
-}
-
-/// What the paths of rows are inside of, in scenes with dielectrics.
-pub(super) fn media_of(column: &[Media], paths: &Rows) -> Option<[Media; WIDTH]> {
-    (!column.is_empty()).then(|| paths.map(|path| column[path]))
 }

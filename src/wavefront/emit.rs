@@ -6,7 +6,7 @@ use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
 use crate::geometry::gather3;
 use crate::intersect::Tier;
-use crate::math::{Lane, Vec3, WIDTH};
+use crate::math::WIDTH;
 
 /// Adds what missing paths see.
 pub(super) fn background<T: Tier>(
@@ -21,7 +21,7 @@ pub(super) fn background<T: Tier>(
         let direction = queue.direction.gather::<T::Wide>(&paths);
         let seen = worker.frame.scene.background.radiance(direction);
         let radiance = queue.throughput.gather::<T::Wide>(&paths).scale(seen);
-        worker.radiance.add(&paths.map(|path| queue.slot[path]), radiance, lanes);
+        worker.radiance.add(&paths.of(queue.slot), radiance, lanes);
     }
 }
 
@@ -32,11 +32,4 @@ pub(super) fn glow<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T::R
         let radiance = surfaces.throughput.load::<T::Wide>(at).scale(glow);
         worker.radiance.add(surfaces.slots(at), radiance, surfaces.lanes(at));
     }
-}
-
-/// True if any component of a lane is more than zero (or NaN, which must be seen to be counted).
-#[inline(always)]
-pub(super) fn not_black<L: Lane>(c: Vec3<L>) -> L::Mask {
-    let zero = L::zero();
-    !(c.x.eq(zero) & c.y.eq(zero) & c.z.eq(zero))
 }

@@ -1,5 +1,7 @@
 //! Paths to their nearest hits, sorted by the kind of primitive.
 
+use std::ops::Range;
+
 use bumpalo::Bump;
 
 use super::queue::{PathQueue, column};
@@ -7,7 +9,7 @@ use super::wave::Worker;
 use crate::accel::Hint;
 use crate::accel::stream::{Apex, Bound, HitColumns, RayColumns};
 use crate::intersect::{PrimId, PrimKind, Tier};
-use crate::math::{Lane, Real};
+use crate::math::{Lane, Real, WIDTH, eight};
 
 /// Nearest hits of a chunk of paths, and the paths by what they hit.
 ///
@@ -46,7 +48,10 @@ pub(super) fn extend<'a, T: Tier>(
         len: n,
         origin: queue.origin.rows_from(first),
         direction: queue.direction.rows_from(first),
-        t_min: Bound::Each(&queue.t_min[first..]),
+        t_min: match queue.t_min.get(first..) {
+            Some(column) if !column.is_empty() => Bound::Each(column),
+            _ => Bound::All(T::Real::constant(0.0)),
+        },
         t_max: Bound::All(T::Real::constant(f64::INFINITY)),
     };
     let mut found = HitColumns { t: hits.t, u: hits.u, v: hits.v, prim: hits.prim, instance: hits.instance };
@@ -55,16 +60,40 @@ pub(super) fn extend<'a, T: Tier>(
     hits
 }
 
-impl<R: Real> Hits<'_, R> {
-    /// Sorts the paths by what they hit.
+impl<'a, R: Real> Hits<'a, R> {
+    /// Sorts the paths by what they hit, eight together where that is the same.
     fn sort(&mut self, n: usize) {
-        let infinity = R::constant(f64::INFINITY);
-        for row in 0..n {
-            match self.t[row] < infinity {
-                false => self.misses.push(row as u32),
-                true => self.by_kind[PrimId(self.prim[row]).kind() as usize - 1].push(row as u32),
+        for first in (0..n).step_by(WIDTH) {
+            let end = n.min(first + WIDTH);
+            if end == first + WIDTH && self.are_alike(first..end) {
+                self.list(self.kind(first)).extend_from_slice_copy(&eight(|i| (first + i) as u32));
+                continue;
+            }
+            for row in first..end {
+                self.list(self.kind(row)).push(row as u32);
             }
         }
+    }
+
+    /// Whether all paths missed, or all hit the same kind of primitive.
+    #[inline(always)]
+    fn are_alike(&self, rows: Range<usize>) -> bool {
+        let (t, prim) = (&self.t[rows.clone()], &self.prim[rows]);
+        let hits = t.iter().filter(|&&t| t < R::constant(f64::INFINITY)).count();
+        let differing = prim.iter().fold(0, |bits, p| bits | (p ^ prim[0]));
+        hits == 0 || hits == t.len() && (differing as usize) < PrimId::MAX_ROWS
+    }
+
+    /// What kind of primitive a path hit; 0 is none.
+    #[inline(always)]
+    fn kind(&self, row: usize) -> usize {
+        let is_hit = self.t[row] < R::constant(f64::INFINITY);
+        if is_hit { PrimId(self.prim[row]).kind() as usize } else { 0 }
+    }
+
+    #[inline(always)]
+    fn list(&mut self, kind: usize) -> &mut bumpalo::collections::Vec<'a, u32> {
+        if kind == 0 { &mut self.misses } else { &mut self.by_kind[kind - 1] }
     }
 }
 

@@ -2,7 +2,6 @@
 
 use bumpalo::Bump;
 
-use super::medium::OUTSIDE;
 use super::queue::{PathNeeds, PathQueue, padded};
 use super::wave::{Frame, WaveSamples};
 use crate::intersect::Tier;
@@ -24,7 +23,9 @@ pub(super) fn generate<'a, T: Tier>(
         let (rays, weight) = camera_rays::<T>(frame, wave, at);
         queue.origin.store(at, rays.origin);
         queue.direction.store(at, rays.direction);
-        rays.t_min.store(&mut queue.t_min[at..]);
+        if !queue.t_min.is_empty() {
+            rays.t_min.store(&mut queue.t_min[at..]);
+        }
         queue.throughput.store(at, Vec3::<T::Wide>::splat_f32([1.0; 3]));
         if !weights.is_empty() {
             weight.store(&mut weights[at..]);
@@ -33,7 +34,6 @@ pub(super) fn generate<'a, T: Tier>(
     for (slot, entry) in queue.slot.iter_mut().enumerate() {
         *entry = slot as u32;
     }
-    queue.medium.fill(OUTSIDE);
     queue.len = n;
     (queue, weights)
 }
@@ -72,7 +72,8 @@ pub(super) fn generate_centres<'a, T: Tier>(
     pixels: &[[u32; 2]],
     arena: &'a Bump,
 ) -> PathQueue<'a, T::Real> {
-    let mut queue = PathQueue::new(arena, pixels.len(), PathNeeds { medium: false, branch: false });
+    let mut queue =
+        PathQueue::new(arena, pixels.len(), PathNeeds { medium: false, branch: false, ..frame.path_needs() });
     let zero = T::Wide::zero();
     for at in (0..pixels.len()).step_by(WIDTH) {
         let pixel = |i: usize| pixels[(at + i).min(pixels.len() - 1)];
@@ -81,7 +82,9 @@ pub(super) fn generate_centres<'a, T: Tier>(
         let rays = frame.scene.camera.rays(film, || (zero, zero));
         queue.origin.store(at, rays.origin);
         queue.direction.store(at, rays.direction);
-        rays.t_min.store(&mut queue.t_min[at..]);
+        if !queue.t_min.is_empty() {
+            rays.t_min.store(&mut queue.t_min[at..]);
+        }
     }
     queue.len = pixels.len();
     queue

@@ -1,4 +1,4 @@
-//! Which dielectrics a ray is inside of: four bodies of 32 bits in a word, the innermost lowest; 0 is none.
+//! Which dielectrics a ray is inside of: four bodies, the innermost first; 0 is none.
 //!
 //! A sphere of the scene itself is a body by its primitive id. What takes several primitives to close (meshes, planes, quads),
 //! and what stands behind an instance, is one body by its material: row plus one. Four nested bodies are tracked; entering a
@@ -8,15 +8,13 @@ use crate::geometry::Geometry;
 use crate::intersect::{PrimId, PrimKind};
 
 /// Bodies that a ray is inside of.
-pub(super) type Media = u128;
+pub(super) type Media = [u32; 4];
 
 /// Outside of everything.
-pub(super) const OUTSIDE: Media = 0;
+pub(super) const OUTSIDE: Media = [NO_BODY; 4];
 
 /// No body.
 pub(super) const NO_BODY: u32 = 0;
-
-const BODIES: usize = 4;
 
 /// The body of a dielectric surface.
 pub(super) fn body_of(kind: PrimKind, row: u32, instance: u32, material: u32) -> u32 {
@@ -40,26 +38,26 @@ pub(super) fn material_of_body(geometry: &Geometry, body: u32) -> u32 {
     }
 }
 
-fn body_at(state: Media, level: usize) -> u32 {
-    (state >> (32 * level)) as u32
-}
-
 /// The state inside `body`.
-pub(super) fn enter(state: Media, body: u32) -> Media {
-    state << 32 | Media::from(body)
+pub(super) fn enter([a, b, c, _]: Media, body: u32) -> Media {
+    [body, a, b, c]
 }
 
 /// The state after leaving `body`: its innermost mention is taken out; a body never entered changes nothing.
 pub(super) fn leave(state: Media, body: u32) -> Media {
-    let Some(level) = (0..BODIES).find(|&level| body_at(state, level) == body) else { return state };
-    let below = state & ((1 << (32 * level)) - 1);
-    let above = state >> (32 * level) >> 32;
-    above << (32 * level) | below
+    let [a, b, c, d] = state;
+    match state.iter().position(|&around| around == body) {
+        Some(0) => [b, c, d, NO_BODY],
+        Some(1) => [a, c, d, NO_BODY],
+        Some(2) => [a, b, d, NO_BODY],
+        Some(_) => [a, b, c, NO_BODY],
+        None => state,
+    }
 }
 
 /// Whether the ray is known to be inside `body`.
 pub(super) fn is_inside(state: Media, body: u32) -> bool {
-    (0..BODIES).any(|level| body_at(state, level) == body)
+    state.contains(&body)
 }
 
 /// The state of a ray found inside `body`: as if it had entered, where no entry was seen (a camera inside a body).
@@ -69,7 +67,7 @@ pub(super) fn found_inside(state: Media, body: u32) -> Media {
 
 /// The body whose inside counts: the innermost.
 pub(super) fn innermost(state: Media) -> u32 {
-    state as u32
+    state[0]
 }
 
 #[cfg(test)]

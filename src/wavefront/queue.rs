@@ -37,8 +37,13 @@ impl<'a, R: Real> Column3<'a, R> {
     /// The rows named by `rows`.
     #[inline(always)]
     pub(super) fn gather<L: Lane<Scalar = R>>(&self, rows: &Rows) -> Vec3<L> {
-        let [x, y, z] = &self.0;
-        Vec3::new(gather(x, rows), gather(y, rows), gather(z, rows))
+        if rows.is_run { self.load(rows.number[0] as usize) } else { self.gather_each(rows) }
+    }
+    /// Out of line: merged with the load, it would take that apart into single lanes, too.
+    #[inline(never)]
+    fn gather_each<L: Lane<Scalar = R>>(&self, rows: &Rows) -> Vec3<L> {
+        let [x, y, z] = self.0.each_ref().map(|column| L::from_fn(|i| column[rows.number[i] as usize]));
+        Vec3 { x, y, z }
     }
     /// Overwrites eight rows from `at` on.
     #[inline(always)]
@@ -51,33 +56,34 @@ impl<'a, R: Real> Column3<'a, R> {
     /// Writes the chosen lanes to consecutive rows from `at` on.
     #[inline(always)]
     pub(super) fn compress<L: Lane<Scalar = R>>(&mut self, at: usize, v: Vec3<L>, lanes: u32) {
+        if lanes == L::Mask::splat(true).bits() { self.store(at, v) } else { self.store_some(at, v, lanes) }
+    }
+    #[inline(never)]
+    fn store_some<L: Lane<Scalar = R>>(&mut self, at: usize, v: Vec3<L>, lanes: u32) {
         let [x, y, z] = &mut self.0;
-        compress(x, at, v.x, lanes);
-        compress(y, at, v.y, lanes);
-        compress(z, at, v.z, lanes);
+        for (k, i) in set_bits(lanes).enumerate() {
+            (x[at + k], y[at + k], z[at + k]) = (v.x.get(i), v.y.get(i), v.z.get(i));
+        }
     }
 }
 
-/// Writes the chosen lanes to consecutive rows from `at` on.
+/// Writes the chosen of eight entries to consecutive rows from `at` on.
 #[inline(always)]
-pub(super) fn compress<L: Lane>(column: &mut [L::Scalar], at: usize, v: L, lanes: u32) {
-    if lanes == L::Mask::splat(true).bits() {
-        return v.store(&mut column[at..]);
-    }
+pub(super) fn compress_eight<T: Copy>(column: &mut [T], at: usize, entries: &[T; WIDTH], lanes: u32) {
+    if lanes == 0xff { store_eight(column, at, entries) } else { store_some(column, at, entries, lanes) }
+}
+
+#[inline(never)]
+fn store_some<T: Copy>(column: &mut [T], at: usize, entries: &[T; WIDTH], lanes: u32) {
     for (k, i) in set_bits(lanes).enumerate() {
-        column[at + k] = v.get(i);
+        column[at + k] = entries[i];
     }
 }
 
-/// Writes the chosen words to consecutive rows from `at` on.
+/// Overwrites eight rows from `at` on.
 #[inline(always)]
-pub(super) fn compress_words(column: &mut [u32], at: usize, words: &[u32; WIDTH], lanes: u32) {
-    if lanes == 0xff {
-        return column[at..at + WIDTH].copy_from_slice(words);
-    }
-    for (k, i) in set_bits(lanes).enumerate() {
-        column[at + k] = words[i];
-    }
+pub(super) fn store_eight<T: Copy>(column: &mut [T], at: usize, entries: &[T; WIDTH]) {
+    column[at..at + WIDTH].copy_from_slice(entries);
 }
 
 /// The numbers of the bits that are set, lowest first.
@@ -110,6 +116,18 @@ impl Rows {
     pub(super) fn offset(self, by: usize) -> Self {
         Self { number: eight(|i| self.number[i] + by as u32), ..self }
     }
+    /// Entries of a column.
+    #[inline(always)]
+    pub(super) fn of<T: Copy>(&self, column: &[T]) -> [T; WIDTH] {
+        match column[self.number[0] as usize..].first_chunk() {
+            Some(run) if self.is_run => *run,
+            _ => self.each_of(column),
+        }
+    }
+    #[inline(never)]
+    fn each_of<T: Copy>(&self, column: &[T]) -> [T; WIDTH] {
+        self.map(|row| column[row])
+    }
     /// The numbers.
     #[inline(always)]
     pub(super) fn map<T>(&self, mut f: impl FnMut(usize) -> T) -> [T; WIDTH] {
@@ -120,9 +138,11 @@ impl Rows {
 /// The rows of a column.
 #[inline(always)]
 pub(super) fn gather<L: Lane>(column: &[L::Scalar], rows: &Rows) -> L {
-    if rows.is_run {
-        return L::load(&column[rows.number[0] as usize..]);
-    }
+    if rows.is_run { L::load(&column[rows.number[0] as usize..]) } else { gather_each(column, rows) }
+}
+
+#[inline(never)]
+fn gather_each<L: Lane>(column: &[L::Scalar], rows: &Rows) -> L {
     L::from_fn(|i| column[rows.number[i] as usize])
 }
 
@@ -145,12 +165,12 @@ pub(super) fn list_lanes(list: &[u32], at: usize) -> (Rows, u32) {
 
 /// Paths of one depth.
 ///
-/// **Shape:** each column holds `len` rows, then padding; `medium` and `branch` are empty where the scene needs none.
+/// **Shape:** each column holds `len` rows, then padding; `t_min`, `medium` and `branch` are empty where paths need none.
 pub(super) struct PathQueue<'a, R> {
     pub(super) len: usize,
     pub(super) origin: Column3<'a, R>,
     pub(super) direction: Column3<'a, R>,
-    /// Hits at or before it do not count; only camera rays with a near plane have one.
+    /// Hits at or before it do not count.
     pub(super) t_min: &'a mut [R],
     /// What part of the radiance along the ray reaches the pixel.
     pub(super) throughput: Column3<'a, R>,
@@ -167,6 +187,8 @@ pub(super) struct PathQueue<'a, R> {
 pub(super) struct PathNeeds {
     pub(super) medium: bool,
     pub(super) branch: bool,
+    /// They are camera rays with a near plane.
+    pub(super) t_min: bool,
 }
 
 impl<'a, R: Real> PathQueue<'a, R> {
@@ -176,7 +198,7 @@ impl<'a, R: Real> PathQueue<'a, R> {
             len: 0,
             origin: Column3::new(arena, capacity),
             direction: Column3::new(arena, capacity),
-            t_min: column(arena, capacity),
+            t_min: column(arena, wanted(needs.t_min)),
             throughput: Column3::new(arena, capacity),
             slot: column(arena, capacity),
             medium: column(arena, wanted(needs.medium)),
@@ -191,14 +213,12 @@ impl<'a, R: Real> PathQueue<'a, R> {
         self.origin.compress(at, paths.origin, lanes);
         self.direction.compress(at, paths.direction, lanes);
         self.throughput.compress(at, paths.throughput, lanes);
-        for (k, i) in set_bits(lanes).enumerate() {
-            self.slot[at + k] = paths.slot[i];
-            if let Some(medium) = self.medium.get_mut(at + k) {
-                *medium = paths.medium[i];
-            }
-            if let Some(branch) = self.branch.get_mut(at + k) {
-                *branch = paths.branch[i];
-            }
+        compress_eight(self.slot, at, &paths.slot, lanes);
+        if !self.medium.is_empty() {
+            compress_eight(self.medium, at, &paths.medium, lanes);
+        }
+        if !self.branch.is_empty() {
+            compress_eight(self.branch, at, &paths.branch, lanes);
         }
         self.len += lanes.count_ones() as usize;
     }
@@ -220,11 +240,15 @@ mod tests {
 
     #[test]
     fn compress_keeps_the_order_of_lanes() {
-        let mut column = [0.0f32; 16];
+        let arena = Bump::new();
+        let mut columns = Column3::new(&arena, 16);
         let v = wide::f32x8::new([0., 1., 2., 3., 4., 5., 6., 7.]);
-        compress(&mut column, 3, v, 0b1010_0110);
-        assert_eq!(column[3..7], [1.0, 2.0, 5.0, 7.0]);
-        assert_eq!(column[7], 0.0);
+        columns.compress(3, Vec3 { x: v, y: -v, z: v }, 0b1010_0110);
+        let [x, y, _] = columns.rows_from(3);
+        assert_eq!((&x[..4], y[3], x[4]), (&[1.0, 2.0, 5.0, 7.0][..], -7.0, 0.0));
+        let mut words = [0; 16];
+        compress_eight(&mut words, 3, &eight(|i| i as u32), 0b1010_0110);
+        assert_eq!(words[3..8], [1, 2, 5, 7, 0]);
     }
 
     #[test]

@@ -6,11 +6,12 @@ use super::connect::connect;
 use super::emit::{background, glow};
 use super::extend::extend;
 use super::generate::generate;
-use super::queue::PathQueue;
+use super::queue::{PathNeeds, PathQueue};
 use super::scatter::scatter;
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
 use crate::intersect::Tier;
+use crate::math::WIDTH;
 
 /// Most paths that go through a stage at once. Queues that grow beyond are cut, and what grows out of the first piece is
 /// finished before the next: memory stays bounded however rays split.
@@ -78,8 +79,8 @@ fn run_chunk<T: Tier>(
         return;
     }
     let scattering: usize = surfaces.by_scatter.iter().map(|list| list.len()).sum();
-    let mut next =
-        PathQueue::new(arena, scattering * children + crate::math::WIDTH, worker.frame.path_needs());
+    let needs = PathNeeds { t_min: false, ..worker.frame.path_needs() };
+    let mut next = PathQueue::new(arena, scattering * children + WIDTH, needs);
     scatter(worker, wave, depth, paths, &surfaces, &mut next);
     run_depth(worker, wave, depth + 1, &next, deeper);
 }

@@ -1,11 +1,11 @@
 //! Secondary rays: mirrored, refracted, scattered; one function a kind of material.
 
-use super::medium::{Media, NO_BODY, enter, found_inside, innermost, leave, material_of_body};
+use super::medium::{Media, NO_BODY, OUTSIDE, enter, found_inside, innermost, leave, material_of_body};
 use super::offset::offset_along;
 use super::queue::{PathLanes, PathQueue, Rows, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
-use crate::geometry::gather3;
+use crate::geometry::{entries, gather3};
 use crate::intersect::Tier;
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH, eight};
 use crate::sampling::{ScatterDraw, bounce, child_branch, cosine_hemisphere, to_frame};
@@ -23,7 +23,10 @@ struct Lanes<L: Lane> {
     weight: Vec3<L>,
     bodies: [u32; WIDTH],
     slot: [u32; WIDTH],
-    path: [u32; WIDTH],
+    /// What the paths are inside of, in scenes with dielectrics.
+    media: [Media; WIDTH],
+    /// Which splits led here, in scenes with diffuse bounces.
+    branch: [u32; WIDTH],
     from_inside: L::Mask,
     lanes: u32,
 }
@@ -41,12 +44,12 @@ pub(super) fn scatter<T: Tier>(
         let list = &surfaces.by_scatter[kind as usize];
         for at in (0..list.len()).step_by(WIDTH) {
             let (rows, lanes) = list_lanes(list, at);
-            let s = gather::<T>(worker, surfaces, &rows, lanes);
+            let s = gather::<T>(worker, surfaces, paths, &rows, lanes);
             match kind {
                 Scatter::Absorb => {}
-                Scatter::Metal => mirror(worker, &s, paths, next),
-                Scatter::Dielectric => dielectric(worker, &s, paths, next),
-                Scatter::Diffuse => diffuse(worker, &s, wave, depth, paths, next),
+                Scatter::Metal => mirror(worker, &s, next),
+                Scatter::Dielectric => dielectric(worker, &s, next),
+                Scatter::Diffuse => diffuse(worker, &s, wave, depth, next),
             }
         }
     }
@@ -55,14 +58,16 @@ pub(super) fn scatter<T: Tier>(
 fn gather<T: Tier>(
     worker: &Worker<T>,
     surfaces: &SurfaceQueue<T::Real>,
+    paths: &PathQueue<T::Real>,
     rows: &Rows,
     lanes: u32,
 ) -> Lanes<T::Wide> {
     let scene = worker.frame.scene;
-    let materials = rows.map(|row| surfaces.material(row));
+    let materials = rows.of(surfaces.material);
     let tint = gather3::<T::Wide>(&scene.materials.tint, &materials);
     let weight = surfaces.throughput.gather::<T::Wide>(rows).scale(tint);
-    let inside = rows.map(|row| surfaces.from_inside[row]);
+    let inside = rows.of(surfaces.from_inside);
+    let from = rows.of(surfaces.path);
     let inside = (0..WIDTH).map(|i| inside[i] << i).sum();
     let bright = weight.max_component().ge(T::Wide::constant(scene.settings.min_throughput));
     Lanes {
@@ -72,9 +77,10 @@ fn gather<T: Tier>(
         shading_normal: surfaces.shading_normal().gather(rows),
         direction: surfaces.direction.gather(rows),
         weight,
-        bodies: rows.map(|row| surfaces.body.get(row).copied().unwrap_or(NO_BODY)),
-        slot: rows.map(|row| surfaces.slot(row)),
-        path: rows.map(|row| surfaces.path[row]),
+        bodies: if surfaces.body.is_empty() { [NO_BODY; WIDTH] } else { rows.of(surfaces.body) },
+        slot: rows.of(surfaces.slot),
+        media: if paths.medium.is_empty() { [OUTSIDE; WIDTH] } else { entries(paths.medium, &from) },
+        branch: if paths.branch.is_empty() { [0; WIDTH] } else { entries(paths.branch, &from) },
         from_inside: Mask::from_bits(inside),
         lanes: lanes & bright.bits(),
     }
@@ -94,13 +100,7 @@ impl<L: Lane> Lanes<L> {
 
     /// Paths that leave on the side they came from, or on the other.
     #[inline(always)]
-    fn leaving(
-        &self,
-        direction: Vec3<L>,
-        weight: Vec3<L>,
-        side: Side,
-        paths: &PathQueue<L::Scalar>,
-    ) -> PathLanes<L> {
+    fn leaving(&self, direction: Vec3<L>, weight: Vec3<L>, side: Side) -> PathLanes<L> {
         let normal = if side == Side::Same { self.geometric_normal } else { -self.geometric_normal };
         let which = if side == Side::Same { 0 } else { 1 };
         PathLanes {
@@ -108,11 +108,8 @@ impl<L: Lane> Lanes<L> {
             direction,
             throughput: weight,
             slot: self.slot,
-            medium: eight(|i| paths.medium.get(self.path[i] as usize).copied().unwrap_or_default()),
-            branch: eight(|i| {
-                let parent = paths.branch.get(self.path[i] as usize);
-                child_branch(parent.copied().unwrap_or_default(), which)
-            }),
+            medium: self.media,
+            branch: self.branch.map(|parent| child_branch(parent, which)),
         }
     }
 }
@@ -124,29 +121,18 @@ enum Side {
     Other,
 }
 
-fn mirror<T: Tier>(
-    worker: &mut Worker<T>,
-    s: &Lanes<T::Wide>,
-    paths: &PathQueue<T::Real>,
-    next: &mut PathQueue<T::Real>,
-) {
-    next.push(&s.leaving(s.mirrored(), s.weight, Side::Same, paths), s.lanes);
+fn mirror<T: Tier>(worker: &mut Worker<T>, s: &Lanes<T::Wide>, next: &mut PathQueue<T::Real>) {
+    next.push(&s.leaving(s.mirrored(), s.weight, Side::Same), s.lanes);
     worker.rays.reflected += u64::from(s.lanes.count_ones());
 }
 
 /// One reflected and one refracted ray, weighted by Fresnel's formulas; only the first where all is reflected.
-fn dielectric<T: Tier>(
-    worker: &mut Worker<T>,
-    s: &Lanes<T::Wide>,
-    paths: &PathQueue<T::Real>,
-    next: &mut PathQueue<T::Real>,
-) {
+fn dielectric<T: Tier>(worker: &mut Worker<T>, s: &Lanes<T::Wide>, next: &mut PathQueue<T::Real>) {
     let scene = worker.frame.scene;
     let least = T::Wide::constant(scene.settings.min_throughput);
-    let mut through =
-        PathLanes { medium: beyond::<T>(s, paths), ..s.leaving(s.direction, s.weight, Side::Other, paths) };
+    let mut through = PathLanes { medium: beyond(s), ..s.leaving(s.direction, s.weight, Side::Other) };
     let inside = s.from_inside.bits();
-    let near = eight(|i| match (paths.medium[s.path[i] as usize], inside >> i & 1) {
+    let near = eight(|i| match (s.media[i], inside >> i & 1) {
         (state, 0) => state,
         (state, _) => found_inside(state, s.bodies[i]),
     });
@@ -155,7 +141,7 @@ fn dielectric<T: Tier>(
 
     let reflected = s.weight * reflectance;
     let lanes = s.lanes & reflected.max_component().ge(least).bits();
-    let back = PathLanes { medium: near, ..s.leaving(s.mirrored(), reflected, Side::Same, paths) };
+    let back = PathLanes { medium: near, ..s.leaving(s.mirrored(), reflected, Side::Same) };
     next.push(&back, lanes);
     worker.rays.reflected += u64::from(lanes.count_ones());
 
@@ -170,10 +156,10 @@ fn dielectric<T: Tier>(
 }
 
 /// The dielectrics around the refracted rays: one more on the way in, one less on the way out.
-fn beyond<T: Tier>(s: &Lanes<T::Wide>, paths: &PathQueue<T::Real>) -> [Media; WIDTH] {
+fn beyond<L: Lane>(s: &Lanes<L>) -> [Media; WIDTH] {
     let inside = s.from_inside.bits();
     eight(|i| {
-        let (state, body) = (paths.medium[s.path[i] as usize], s.bodies[i]);
+        let (state, body) = (s.media[i], s.bodies[i]);
         if inside >> i & 1 != 0 { leave(state, body) } else { enter(state, body) }
     })
 }
@@ -196,20 +182,18 @@ fn diffuse<T: Tier>(
     s: &Lanes<T::Wide>,
     wave: WaveSamples,
     depth: u32,
-    paths: &PathQueue<T::Real>,
     next: &mut PathQueue<T::Real>,
 ) {
     let samples = eight(|i| wave.of_slot(s.slot[i]));
-    let branch = <wide::u32x8 as BitLane>::from_fn(|i| paths.branch[s.path[i] as usize]);
     let (u, v) = worker.frame.sampler.pair::<T::Wide>(
         BitLane::from_fn(|i| samples[i].0[0]),
         BitLane::from_fn(|i| samples[i].0[1]),
         BitLane::from_fn(|i| samples[i].1),
-        bounce(ScatterDraw::Direction, depth, branch),
+        bounce(ScatterDraw::Direction, depth, wide::u32x8::new(s.branch)),
     );
     let direction = to_frame(cosine_hemisphere(u, v), s.shading_normal);
     // Below the surface (interpolated normals only) nothing is seen.
     let lanes = s.lanes & direction.dot(s.geometric_normal).gt(T::Wide::zero()).bits();
-    next.push(&s.leaving(direction, s.weight, Side::Same, paths), lanes);
+    next.push(&s.leaving(direction, s.weight, Side::Same), lanes);
     worker.rays.diffuse += u64::from(lanes.count_ones());
 }

@@ -3,9 +3,9 @@
 //! All of it in `f64` and rounded once: a point on a ground sphere of radius 1e6 is then as good as its coordinates, and
 //! the bound that secondary rays are offset by stays a few roundoffs of the point, whatever the primitive's size.
 
-use crate::geometry::{Geometry, gather, gather3};
+use crate::geometry::{Geometry, entries, gather, gather3};
 use crate::intersect::PrimKind;
-use crate::math::{Lane, Mask, Real, Transform, Vec3, WIDTH, eight, gamma_of, three};
+use crate::math::{Lane, Mask, Real, Transform, Vec3, WIDTH, gamma_of, three};
 
 /// Hits as lanes.
 #[derive(Clone, Copy)]
@@ -112,7 +112,7 @@ fn evaluate_local<D: Double>(g: &Geometry, kind: PrimKind, hit: &HitLanes<D>) ->
 #[inline(always)]
 fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
     let t = &g.triangles;
-    let vertex = three(|k| eight(|i| t.vertex[k][hit.row[i] as usize]));
+    let vertex = three(|k| entries(&t.vertex[k], &hit.row));
     let [p0, p1, p2] = three(|k| gather3::<D>(&t.position, &vertex[k]));
     let weights = [D::one() - hit.u - hit.v, hit.u, hit.v];
     let [a, b, c] = [p0 * weights[0], p1 * weights[1], p2 * weights[2]];

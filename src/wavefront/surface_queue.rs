@@ -2,14 +2,12 @@
 
 use bumpalo::Bump;
 
-use super::contact::{Met, media_of};
+use super::contact::Met;
 use super::extend::{Hits, KINDS};
-use super::queue::{
-    Column3, PathQueue, Rows, column, compress, compress_words, gather, list_lanes, set_bits, words,
-};
+use super::queue::{Column3, PathQueue, Rows, column, gather, list_lanes, store_eight, words};
 use super::surface::{HitLanes, SurfaceLanes};
-use crate::geometry::{NO_MATERIAL, gather3};
-use crate::intersect::PrimId;
+use crate::geometry::{NO_MATERIAL, entries, gather3};
+use crate::intersect::{PrimId, PrimKind};
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
 use crate::scene::{NO_TEXTURE, Requirements, Scatter, Scene, sample_texture};
 
@@ -27,8 +25,8 @@ pub(super) struct SurfaceQueue<'a, R> {
     pub(super) throughput: Column3<'a, R>,
     /// Diffuse coefficient after textures; empty where the scene has none, and the material's counts.
     diffuse: Option<Column3<'a, R>>,
-    slot: &'a mut [u32],
-    material: &'a mut [u32],
+    pub(super) slot: &'a mut [u32],
+    pub(super) material: &'a mut [u32],
     /// Rows of the path queue.
     pub(super) path: &'a mut [u32],
     /// 1 where the path came from inside, against the outward normal.
@@ -78,14 +76,15 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
                 let (rows, lanes) = list_lanes(list, at);
                 let paths = rows.offset(first);
                 let hit = gather_hits::<L>(queue, &paths, hits, &rows);
-                let media = media_of(queue.medium, &paths);
-                let met = Met::new(scene, kind, &hit, media.as_ref());
-                surfaces.push(scene, queue, hit.direction, &met, &paths, lanes);
+                let met = Met::new(scene, kind, &hit, queue.medium, &paths);
+                surfaces.push(scene, queue, hit.direction, &met, &paths);
+                surfaces.sort_by_scatter(&met.scatter, lanes.count_ones() as usize);
             }
         }
         surfaces
     }
 
+    /// Writes eight rows; how many of them count is up to the caller.
     #[inline(always)]
     fn push<L: Lane<Scalar = R>>(
         &mut self,
@@ -94,48 +93,44 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         direction: Vec3<L>,
         met: &Met<L>,
         paths: &Rows,
-        lanes: u32,
     ) {
         let at = self.len;
-        let Met { surface, materials, inside, bodies } = met;
+        let Met { surface, materials, inside, bodies, .. } = met;
         let facing = |n: Vec3<L>| Vec3::select(*inside, -n, n);
         let geometric_normal = facing(surface.geometric_normal);
-        self.point.compress(at, surface.point, lanes);
-        compress(self.error, at, surface.error, lanes);
-        self.geometric_normal.compress(at, geometric_normal, lanes);
+        self.point.store(at, surface.point);
+        surface.error.store(&mut self.error[at..]);
+        self.geometric_normal.store(at, geometric_normal);
         if let Some(normal) = &mut self.shading_normal {
-            let facing = towards(facing(surface.shading_normal), geometric_normal, direction);
-            normal.compress(at, facing, lanes);
+            normal.store(at, towards(facing(surface.shading_normal), geometric_normal, direction));
         }
-        self.direction.compress(at, direction, lanes);
-        self.throughput.compress(at, queue.throughput.gather::<L>(paths), lanes);
+        self.direction.store(at, direction);
+        self.throughput.store(at, queue.throughput.gather::<L>(paths));
         if let Some(diffuse) = &mut self.diffuse {
             let plain = gather3::<L>(&scene.materials.diffuse, materials);
-            diffuse.compress(at, plain.scale(texture_color(scene, materials, surface.uv)), lanes);
+            diffuse.store(at, plain.scale(texture_color(scene, materials, surface.uv)));
         }
-        compress_words(self.slot, at, &paths.map(|path| queue.slot[path]), lanes);
-        compress_words(self.material, at, materials, lanes);
-        compress_words(self.path, at, &paths.number, lanes);
+        store_eight(self.slot, at, &paths.of(queue.slot));
+        store_eight(self.material, at, materials);
+        store_eight(self.path, at, &paths.number);
         let inside = inside.bits();
-        compress_words(self.from_inside, at, &eight(|i| inside >> i & 1), lanes);
+        store_eight(self.from_inside, at, &eight(|i| inside >> i & 1));
         if !self.body.is_empty() {
-            compress_words(self.body, at, bodies, lanes);
+            store_eight(self.body, at, bodies);
         }
-        if scene.requirements.children() > 0 {
-            self.sort_by_scatter(scene, materials, lanes);
-        }
-        self.len += lanes.count_ones() as usize;
     }
 
-    /// Notes the rows about to be appended whose material sends rays on.
+    /// Keeps so many of the rows just written, and notes those whose material sends rays on.
     #[inline(always)]
-    fn sort_by_scatter(&mut self, scene: &Scene, materials: &[u32; WIDTH], lanes: u32) {
-        for (k, i) in set_bits(lanes).enumerate() {
-            let scatter = scene.materials.scatter[materials[i] as usize];
-            if scatter != Scatter::Absorb {
-                self.by_scatter[scatter as usize].push((self.len + k) as u32);
+    fn sort_by_scatter(&mut self, scatter: &[Scatter; WIDTH], count: usize) {
+        if *scatter != [Scatter::Absorb; WIDTH] {
+            for (k, &scatter) in scatter.iter().enumerate().take(count) {
+                if scatter != Scatter::Absorb {
+                    self.by_scatter[scatter as usize].push((self.len + k) as u32);
+                }
             }
         }
+        self.len += count;
     }
 
     /// The lanes from `at` on that hold rows.
@@ -150,10 +145,6 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
     /// Material rows of eight rows.
     pub(super) fn materials(&self, at: usize) -> &[u32; WIDTH] {
         words(self.material, at)
-    }
-    /// Material row of a row.
-    pub(super) fn material(&self, row: usize) -> u32 {
-        self.material[row]
     }
     /// Slot of a row.
     pub(super) fn slot(&self, row: usize) -> u32 {
@@ -202,16 +193,21 @@ pub(super) fn gather_hits<L: Lane>(
         u: gather(hits.u, rows),
         v: gather(hits.v, rows),
         row: rows.map(|row| PrimId(hits.prim[row]).row() as u32),
-        instance: rows.map(|row| hits.instance.get(row).copied().unwrap_or(0)),
+        instance: if hits.instance.is_empty() { [0; WIDTH] } else { rows.of(hits.instance) },
     }
 }
 
-pub(super) fn material_of(scene: &Scene, kind: crate::intersect::PrimKind, row: u32, instance: u32) -> u32 {
-    let override_of = |n: u32| scene.geometry.instances[n as usize - 1].material;
-    match instance {
-        n if n != 0 && override_of(n) != NO_MATERIAL => override_of(n),
-        _ => scene.geometry.material(kind, row as usize),
+/// Material rows of hits.
+#[inline(always)]
+pub(super) fn materials_of<L: Lane>(scene: &Scene, kind: PrimKind, hit: &HitLanes<L>) -> [u32; WIDTH] {
+    let g = &scene.geometry;
+    let own = entries(g.materials(kind), &hit.row);
+    if hit.instance == [0; WIDTH] {
+        return own;
     }
+    let given =
+        hit.instance.map(|n| n.checked_sub(1).map_or(NO_MATERIAL, |n| g.instances[n as usize].material));
+    eight(|i| if given[i] == NO_MATERIAL { own[i] } else { given[i] })
 }
 
 /// The shading normal where the path can see its front, the geometric one elsewhere: at grazing angles an interpolated

@@ -104,9 +104,14 @@ impl<'a> Frame<'a> {
             apex: scene.camera.common_origin().map(Apex::Origin),
         }
     }
+    /// What camera rays need.
     pub(super) fn path_needs(&self) -> PathNeeds {
         let r = &self.scene.requirements;
-        PathNeeds { medium: r.scatters(Scatter::Dielectric), branch: r.scatters(Scatter::Diffuse) }
+        PathNeeds {
+            medium: r.scatters(Scatter::Dielectric),
+            branch: r.scatters(Scatter::Diffuse),
+            t_min: self.scene.camera.near > 0.0,
+        }
     }
 }
 
