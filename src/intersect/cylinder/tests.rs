@@ -249,3 +249,42 @@ fn continuing_from_the_first_hit_finds_the_second() {
         assert!(second.mask && reached, "{first} then {} of {near} {far}", second.t);
     }
 }
+
+/// Found by `verify`: a wire that `f64` alone says is met, by rounding of its far ends.
+#[test]
+fn the_exact_tier_misses_a_wire_that_the_ray_passes() {
+    let end = [358222.06f32, 92356.97, -336373.56].map(f64::from);
+    let (from, to) = (Vec3::splat(end), Vec3::splat(end.map(|x| -x)));
+    let wire = Lanes { from, to, radius: f64::from(0.001f32), capped: true };
+    let r = ray(
+        [0.5504746f32, 0.094409086, 0.82870597].map(f64::from),
+        [-1.102265f32, -0.18702921, -1.658322].map(f64::from),
+    );
+    assert!(!exact::cylinder(&r, [from, to], wire.radius, 0.0));
+    assert!(solve(&r, &wire).mask, "f64 alone is wrong here, or the case tells nothing");
+    assert!(!filter_and_solve(&r, &wire).mask, "made a hit of a wire that is passed");
+}
+
+/// Within 1e-10 radii of tangency, from up to 1e6 radii away: hit or miss is that of exact arithmetic.
+#[test]
+fn the_exact_tier_decides_tangents_without_rounding() {
+    let mut dice = Dice(45);
+    let mut counts = [0; 3];
+    for _ in 0..4_000 {
+        let c = any_cylinder(&mut dice);
+        let (from, to, radius) = (c.from.widen(), c.to.widen(), f64::from(c.radius));
+        let axis = (to - from).normalize();
+        let aside = axis.cross(Vec3::splat(dice.heading())).normalize();
+        let touch = from + (to - from) * 0.5 + aside * (radius * (1.0 + dice.magnitude(-16.0, -10.0)));
+        let along = (axis.cross(aside) + axis * dice.between(-1.0, 1.0)).normalize();
+        let origin = touch - along * (radius * dice.magnitude(0.0, 6.0).abs());
+        let r = line(origin.get(0), along.get(0));
+        let want = exact::cylinder(&r, [from, to], radius, 0.0);
+        let c = Lanes { from, to, radius, capped: true };
+        counts[usize::from(want)] += 1;
+        counts[2] += usize::from(solve(&r, &c).mask != want);
+        let got = filter_and_solve(&r, &c).mask;
+        assert_eq!(got, want, "a tangent is decided by rounding: {c:?} by {r:?}");
+    }
+    assert!(counts.iter().all(|&n| n > 100), "misses, hits, and those that f64 gets wrong: {counts:?}");
+}
