@@ -93,7 +93,7 @@ mod tests {
     fn an_axis_has_some_numbers_but_no_crowd() {
         let written = |span: Range<f64>| ticks(&span).iter().map(label).collect::<Vec<_>>().join(" ");
         assert_eq!(written(0.0018..0.23), "0.002 0.005 0.01 0.02 0.05 0.1 0.2");
-        assert_eq!(written(0.06..0.09), "0.06 0.07 0.08 0.09");
+        assert_eq!(written(0.06..0.095), "0.06 0.07 0.08 0.09");
         assert_eq!(written(40.0..600.0), "50 100 200 500");
         assert_eq!(written(700.0..4e7), "1000 10000 1e5 1e6 1e7");
     }
