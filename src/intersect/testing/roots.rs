@@ -39,10 +39,7 @@ fn ball<R: Real>() -> sphere::Lanes<R> {
     sphere::Lanes { center: Vec3::splat([0.0, 0.0, 1.0].map(R::from_f64)), radius: R::one() }
 }
 
-fn rod<R: Real>() -> cylinder::Lanes<R>
-where
-    R: crate::math::Lane<Mask = bool>,
-{
+fn rod<R: Real>() -> cylinder::Lanes<R> {
     let ends = [[0.0; 3], [0.0, 0.0, 2.0]].map(|p| Vec3::splat(p.map(R::from_f64)));
     cylinder::Lanes { from: ends[0], to: ends[1], radius: R::one(), capped: true }
 }
