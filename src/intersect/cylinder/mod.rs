@@ -9,11 +9,8 @@
 
 pub mod oracle;
 
-use crate::intersect::doubt::{self, Doubt};
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{
-    Aabb, Lane, Mask, Vec3, gamma, pair_at_most, pair_cross, pair_dot, pair_product, pairs, two_sum,
-};
+use crate::math::{Aabb, Lane, Mask, Vec3, gamma};
 
 /// Cylinders as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -51,27 +48,16 @@ impl<L: Lane> Interval<L> {
 /// The first point of each cylinder beyond `t_min`, in the number type of the lanes.
 #[inline(always)]
 pub fn solve<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> {
-    solve_rounded(ray, c, |t| t, |doubt| doubt.value)
+    solve_rounded(ray, c, |t| t)
 }
 
-/// `round` is what becomes of `t` later: the end beyond `t_min` is chosen by the `t` that the caller will see. `settle` gives
-/// the discriminant of the side its sign where that is in doubt.
+/// `round` is what becomes of `t` later: the end beyond `t_min` is chosen by the `t` that the caller will see.
 #[inline(always)]
-fn solve_rounded<L: Lane>(
-    ray: &RayLanes<L>,
-    c: &Lanes<L>,
-    round: impl Fn(L) -> L,
-    settle: impl Fn(Doubt<L>) -> L,
-) -> LaneHit<L> {
+fn solve_rounded<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>, round: impl Fn(L) -> L) -> LaneHit<L> {
     let axis = c.to - c.from;
     let f = ray.origin - c.from;
     let (axis2, along_f, along_d) = (axis.length_squared(), f.dot(axis), ray.direction.dot(axis));
-    let d = ray.direction - axis * (along_d / axis2);
-    let side = inside_side(f - axis * (along_f / axis2), d, c.radius, |r2, across, f_across| {
-        // What is lost of `d` turns it, the more the less of it is across the axis.
-        let turned = f_across * (doubt::size(ray.direction) / doubt::size(d));
-        settle(Doubt::new(r2, across, doubt::size(f) + turned))
-    });
+    let side = inside_side(f - axis * (along_f / axis2), ray.direction - axis * (along_d / axis2), c.radius);
     let slab = between_caps(along_f, along_d, axis2);
     let (mask, t, on_side) = first_beyond(ray.t_min, side, slab, c.capped, round);
     let height = (along_f + t * along_d) / axis2;
@@ -80,18 +66,12 @@ fn solve_rounded<L: Lane>(
     LaneHit { mask, t, u: L::select(on_side, zero, cap), v: height.clamp(zero, one) }
 }
 
-/// When the ray is inside the infinite cylinder, from the parts of offset and direction across its axis. `discriminant` is
-/// made of the square of the radius, the way across and the size of the offset.
+/// When the ray is inside the infinite cylinder, from the parts of offset and direction across its axis.
 #[inline(always)]
-fn inside_side<L: Lane>(
-    f: Vec3<L>,
-    d: Vec3<L>,
-    radius: L,
-    discriminant: impl Fn(L, Vec3<L>, L) -> L,
-) -> Interval<L> {
+fn inside_side<L: Lane>(f: Vec3<L>, d: Vec3<L>, radius: L) -> Interval<L> {
     let (a, b) = (d.length_squared(), f.dot(d));
     let across = f - d * (b / a);
-    let discriminant = discriminant(radius * radius, across, doubt::size(f));
+    let discriminant = radius * radius - across.length_squared();
     let q = -(b + (a * discriminant).sqrt().with_sign_of(b));
     let c = f.length_squared() - radius * radius;
     let (t0, t1) = (q / a, c / q);
@@ -148,28 +128,9 @@ pub fn filter_and_solve<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> 
         radius: c.radius.widen(),
         capped: L::widen_mask(c.capped),
     };
-    let wide_ray = ray.widen();
-    let settle = |doubt: Doubt<L::Double>| match doubt::is_exact::<L>() {
-        true => doubt.settle(|i| {
-            let ends = [wide.from.get(i), wide.to.get(i)];
-            meets_side(&wide_ray.get(i), ends, wide.radius.get(i))
-        }),
-        false => doubt.value,
-    };
-    let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
+    let mut hit = LaneHit::narrow(solve_rounded(&ray.widen(), &wide, |t| L::narrow(t).widen()));
     hit.mask = hit.mask & candidates;
     hit
-}
-
-/// Whether the line meets the infinite cylinder, in twice the digits: `(f . n)^2 <= r^2 |n|^2` with `n` the product of
-/// direction and axis.
-fn meets_side(ray: &RayLanes<f64>, [from, to]: [[f64; 3]; 2], radius: f64) -> bool {
-    let (origin, d) = (ray.origin.get(0), pairs(ray.direction.get(0)));
-    let f = std::array::from_fn(|k| two_sum(origin[k], -from[k]));
-    let axis = std::array::from_fn(|k| two_sum(to[k], -from[k]));
-    let n = pair_cross(&d, &axis);
-    let (along, r) = (pair_dot(&f, &n), [radius, 0.0]);
-    pair_at_most(pair_product(along, along), pair_product(pair_product(r, r), pair_dot(&n, &n)))
 }
 
 /// False only where the ray's line certainly passes the axis line at more than the radius: the distance is
