@@ -56,6 +56,19 @@ fn heatmaps_show_where() {
     }
 }
 
+/// A difference of `inf` says by itself nothing of why.
+#[test]
+fn values_that_are_no_numbers_are_told() {
+    let folder = tempfile::tempdir().unwrap();
+    let (a, b) = (picture(folder.path(), "a.pfm", 0.0), picture(folder.path(), "b.pfm", f32::NAN));
+    let (stdout, stderr) = octray(&[text(&a), text(&b), "--max-rmse", "9"], 4);
+    assert!(stdout.starts_with("rmse inf"), "{stdout}");
+    let told = stderr.lines().find(|line| line.contains("NaN")).unwrap();
+    assert!(told.contains("b.pfm: 96 of 288 values"), "{stderr}");
+    let (_, stderr) = octray(&[text(&a), text(&a)], 0);
+    assert_eq!(stderr, "");
+}
+
 #[test]
 fn bad_input_is_told() {
     let folder = tempfile::tempdir().unwrap();

@@ -6,7 +6,7 @@ use clap::ValueHint;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 
 use super::error::{CliError, Exit};
-use super::stdio::print;
+use super::stdio::{print, say};
 use crate::film::Tone;
 use crate::measure::compare::{Metric, difference, heatmap};
 use crate::output::{self, Format, Picture};
@@ -25,7 +25,7 @@ pub struct CompareArgs {
           value_parser = PossibleValuesParser::new(Metric::NAMES).try_map(|name| name.parse::<Metric>()))]
     pub metric: Option<Metric>,
     /// Exit 4 if the root mean square of the difference is larger than this
-    #[arg(long, value_name = "X", value_parser = parse_limit)]
+    #[arg(long, value_name = "X", value_parser = parse_limit, allow_negative_numbers = true)]
     pub max_rmse: Option<f64>,
     /// Write a picture of where they differ: of FLIP with --metric flip, of the channels otherwise
     #[arg(long, value_name = "FILE", value_hint = ValueHint::FilePath)]
@@ -36,6 +36,8 @@ pub struct CompareArgs {
 pub fn run(args: &CompareArgs) -> Result<(), CliError> {
     let map = args.heatmap.as_deref().map(target).transpose()?;
     let [first, second] = [read(&args.first)?, read(&args.second)?];
+    tell_of_no_numbers(&args.first, &first);
+    tell_of_no_numbers(&args.second, &second);
     let metrics = args.metric.map_or(Metric::ALL.to_vec(), |metric| vec![metric]);
     let found = difference(&first, &second, metrics.contains(&Metric::Flip))
         .map_err(|error| CliError::of(Exit::Scene, error))?;
@@ -52,6 +54,19 @@ pub fn run(args: &CompareArgs) -> Result<(), CliError> {
             format!("the pictures differ by a rmse of {rmse}, more than {limit}"),
         )),
         _ => Ok(()),
+    }
+}
+
+/// Why a difference may be infinite, or none where nothing can be seen.
+fn tell_of_no_numbers(path: &Path, picture: &Picture) {
+    let Picture::Light(film) = picture else { return };
+    let count = film.pixels.iter().flatten().filter(|x| !x.is_finite()).count();
+    if count > 0 {
+        say(&format!(
+            "note: {}: {count} of {} values are NaN or infinite; such a value is like its own kind and infinitely far from others",
+            path.display(),
+            3 * film.pixels.len()
+        ));
     }
 }
 

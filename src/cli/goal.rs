@@ -12,10 +12,10 @@ const MOST_SAMPLES: u32 = 1 << 16;
 pub struct GoalArgs {
     /// Give each pixel samples until its estimated error (root mean square, in linear light) is no larger; the same bytes
     /// for any number of threads
-    #[arg(long, value_name = "E", value_parser = parse_error)]
+    #[arg(long, value_name = "E", value_parser = parse_error, allow_negative_numbers = true)]
     pub max_error: Option<f64>,
     /// Stop rendering after S seconds, but not before each pixel has a sample; the bytes depend on the machine
-    #[arg(long, value_name = "S", value_parser = parse_seconds)]
+    #[arg(long, value_name = "S", value_parser = parse_seconds, allow_negative_numbers = true)]
     pub time_limit: Option<Duration>,
 }
 

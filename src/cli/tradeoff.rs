@@ -28,7 +28,7 @@ pub struct TradeoffArgs {
     #[arg(short, long, value_name = "DIR", value_hint = ValueHint::DirPath)]
     pub output: Option<PathBuf>,
     /// Seconds that it may take, about; settings that do not fit are left out
-    #[arg(long, value_name = "S", default_value = "120", value_parser = parse_seconds)]
+    #[arg(long, value_name = "S", default_value = "120", value_parser = parse_seconds, allow_negative_numbers = true)]
     pub budget: Duration,
     /// Width and height of the pictures [default: the scene's, halved until there are at most 100,000 pixels]
     #[arg(long, value_name = "WxH", value_parser = parse_size)]

@@ -6,6 +6,7 @@
 
 pub mod aabb;
 pub mod cylinder;
+mod doubt;
 pub mod oracle;
 pub mod plane;
 mod ray;

@@ -32,14 +32,14 @@ pub(crate) fn two_product(a: f64, b: f64) -> Pair {
 }
 
 /// The sum of two pairs, within 4 parts in 2^106.
-fn add([a, b]: Pair, [c, d]: Pair) -> Pair {
+pub(super) fn add([a, b]: Pair, [c, d]: Pair) -> Pair {
     let ([high, low], [middle, lowest]) = (two_sum(a, c), two_sum(b, d));
     let [high, low] = two_sum(high, low + middle);
     two_sum(high, low + lowest)
 }
 
 /// The product of two pairs, within 8 parts in 2^106.
-fn multiply([a, b]: Pair, [c, d]: Pair) -> Pair {
+pub(super) fn multiply([a, b]: Pair, [c, d]: Pair) -> Pair {
     let [high, low] = two_product(a, c);
     two_sum(high, low + (a * d + b * c))
 }

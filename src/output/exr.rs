@@ -72,7 +72,13 @@ fn take(planes: &mut Vec<Plane>, name: &str) -> Result<Vec<f32>, String> {
     match index.map(|index| planes.remove(index).values) {
         Some(PlaneValues::Float(values)) => Ok(values),
         Some(PlaneValues::Uint(_)) => Err(format!("channel {name} holds whole numbers, not light")),
-        None => Err(format!("has no channel {name}")),
+        None => {
+            let others: String = planes.iter().map(|plane| format!(" {}", plane.name)).collect();
+            Err(format!(
+                "has no channel {name}; others there:{}",
+                if others.is_empty() { " none" } else { &others }
+            ))
+        }
     }
 }
 
@@ -105,7 +111,7 @@ mod tests {
         let channels = AnyChannels::sort([depth].into_iter().collect::<SmallVec<_>>());
         let mut bytes = Cursor::new(Vec::new());
         Image::from_channels((1, 1), channels).write().to_buffered(&mut bytes).unwrap();
-        assert_eq!(decode(bytes.get_ref()), Err("has no channel R".into()));
+        assert_eq!(decode(bytes.get_ref()), Err("has no channel R; others there: Z".into()));
     }
 
     #[test]

@@ -10,8 +10,12 @@
 
 pub mod oracle;
 
+use crate::intersect::doubt::{self, Doubt};
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{Aabb, Lane, Vec3, fused_cross, fused_dot, gamma};
+use crate::math::{
+    Aabb, Lane, Vec3, fused_cross, fused_dot, gamma, pair_at_most, pair_cross, pair_dot, pair_product, pairs,
+    two_sum,
+};
 
 /// Spheres as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -32,19 +36,26 @@ impl<L: Lane> Lanes<L> {
 /// The first point of each sphere beyond `t_min`, in the number type of the lanes.
 #[inline(always)]
 pub fn solve<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
-    solve_rounded(ray, s, |t| t)
+    solve_rounded(ray, s, |t| t, |doubt| doubt.value)
 }
 
-/// `round` is what becomes of `t` later: the root beyond `t_min` is chosen by the `t` that the caller will see.
+/// `round` is what becomes of `t` later: the root beyond `t_min` is chosen by the `t` that the caller will see. `settle`
+/// gives the discriminant its sign where that is in doubt.
 #[inline(always)]
-fn solve_rounded<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>, round: impl Fn(L) -> L) -> LaneHit<L> {
+fn solve_rounded<L: Lane>(
+    ray: &RayLanes<L>,
+    s: &Lanes<L>,
+    round: impl Fn(L) -> L,
+    settle: impl Fn(Doubt<L>) -> L,
+) -> LaneHit<L> {
     let (f, d) = (ray.origin - s.center, ray.direction);
     let (a, b) = (d.length_squared(), f.dot(d));
     let across = f - d * (b / a);
-    let discriminant = s.radius * s.radius - across.length_squared();
+    let r2 = s.radius * s.radius;
+    let discriminant = settle(Doubt::new(r2, across, doubt::size(f)));
     let mask = discriminant.ge(L::zero());
     let q = -(b + (a * discriminant).sqrt().with_sign_of(b));
-    let c = f.length_squared() - s.radius * s.radius;
+    let c = f.length_squared() - r2;
     let (near, far) = (q / a, c / q);
     // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
     let (near, far) = (round(far.min(near)), round(far.max(near)));
@@ -55,9 +66,23 @@ fn solve_rounded<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>, round: impl Fn(L) -> 
 /// The same in `f64`, for the lanes that [`may_hit`].
 #[inline(always)]
 pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
-    let mut hit = LaneHit::narrow(solve_rounded(&ray.widen(), &s.widen(), |t| L::narrow(t).widen()));
+    let (wide_ray, wide) = (ray.widen(), s.widen());
+    let settle = |doubt: Doubt<L::Double>| match doubt::is_exact::<L>() {
+        true => doubt.settle(|i| is_met(&wide_ray.get(i), wide.center.get(i), wide.radius.get(i))),
+        false => doubt.value,
+    };
+    let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
     hit.mask = hit.mask & lanes;
     hit
+}
+
+/// Whether the line meets the sphere, in twice the digits: `|f x d|^2 <= r^2 |d|^2`.
+fn is_met(ray: &RayLanes<f64>, center: [f64; 3], radius: f64) -> bool {
+    let (origin, d) = (ray.origin.get(0), pairs(ray.direction.get(0)));
+    let f = std::array::from_fn(|k| two_sum(origin[k], -center[k]));
+    let n = pair_cross(&f, &d);
+    let r = [radius, 0.0];
+    pair_at_most(pair_dot(&n, &n), pair_product(pair_product(r, r), pair_dot(&d, &d)))
 }
 
 /// False only where the sphere is certainly missed. Written with `not greater`, so that overflow, underflow and NaN

@@ -142,3 +142,25 @@ fn continuing_from_the_near_side_finds_the_far_side() {
         }
     }
 }
+
+/// Within 1e-10 radii of tangency, from up to 1e8 radii away: hit or miss is that of exact arithmetic.
+#[test]
+fn the_exact_tier_decides_tangents_without_rounding() {
+    let mut dice = Dice(35);
+    let mut counts = [0; 3];
+    for _ in 0..10_000 {
+        let (_, s) = seen_from(&mut dice, 1.0);
+        let s = Lanes { center: s.center.widen(), radius: f64::from(s.radius) };
+        let aside = Vec3::<f64>::splat(dice.heading());
+        let along = aside.cross(Vec3::splat(dice.heading())).normalize();
+        let touch = s.center + aside * (s.radius * (1.0 + dice.magnitude(-16.0, -10.0)));
+        let origin = touch - along * (s.radius * dice.magnitude(0.0, 8.0).abs());
+        let r = line(origin.get(0), along.get(0));
+        let want = exact::sphere(&r, s.center, s.radius).is_some();
+        counts[usize::from(want)] += 1;
+        counts[2] += usize::from(solve(&r, &s).mask != want);
+        let got = Filtered::sphere(&r, &s).mask;
+        assert_eq!(got, want, "a tangent is decided by rounding: {s:?} by {r:?}");
+    }
+    assert!(counts.iter().all(|&n| n > 100), "misses, hits, and those that f64 gets wrong: {counts:?}");
+}

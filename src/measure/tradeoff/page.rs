@@ -40,7 +40,7 @@ pub fn page(report: &Report) -> Result<String, Box<dyn Error>> {
                         figure { (PreEscaped(svg)) figcaption { (name) " over time. Lower left is better." } }
                     }
                 }
-                h2 { "What nothing beats" }
+                h2 { "What nothing beats in time and RMSE" }
                 (pictures(report))
                 h2 { "All settings, fastest first" }
                 (table(report))

@@ -25,7 +25,7 @@ const GROUPS: [Group; 9] = [
     ("shadows", RGBColor(90, 90, 90), |row| row.change == Some("shadows")),
     ("bounce", RGBColor(0, 150, 160), |row| row.change == Some("bounce")),
 ];
-const FRONT: Group = ("nothing beats it", RGBColor(210, 30, 30), |row| row.on_front);
+const FRONT: Group = ("nothing beats its RMSE", RGBColor(210, 30, 30), |row| row.on_front);
 
 fn of_tier(row: &Row, tier: TierName) -> bool {
     row.change.is_none() && row.setting.tier == tier

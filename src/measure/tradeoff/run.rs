@@ -92,8 +92,8 @@ struct Contest<'a> {
     stage: Stage,
     truth: Film,
     true_sights: Vec<Sight>,
-    /// By tier and shrink, as they were needed.
-    wrong: Vec<(TierName, u32, f64)>,
+    /// By what decides what is seen, as they were needed.
+    wrong: Vec<((TierName, u32, bool), f64)>,
     effort: &'a Effort<'a>,
     entries: Vec<Entry>,
     left_out: Vec<Setting>,
@@ -144,7 +144,7 @@ impl<'a> Contest<'a> {
     fn enter(&mut self, setting: Setting, base: &Setting) -> Result<Entry, TradeoffError> {
         let (film, report) = render(self.stage.set(&setting), &self.effort.options)?;
         self.threads = report.threads;
-        let wrong = self.wrong_share(setting.tier, setting.shrink);
+        let wrong = self.wrong_share(&setting);
         let tone = self.stage.scene().settings.tone;
         let (figures, pictures) = score(&enlarged(&film, setting.shrink), &self.truth, tone, wrong)?;
         let (rays, times) = (report.rays.total(), vec![report.render_time.as_secs_f64()]);
@@ -158,15 +158,16 @@ impl<'a> Contest<'a> {
         })
     }
 
-    /// The share of pixels that are seen otherwise than they should.
-    fn wrong_share(&mut self, tier: TierName, shrink: u32) -> f64 {
-        if let Some((.., share)) = self.wrong.iter().find(|known| (known.0, known.1) == (tier, shrink)) {
+    /// The share of pixels that are seen otherwise than they should. **Needs:** a stage set so.
+    fn wrong_share(&mut self, setting: &Setting) -> f64 {
+        let decides = (setting.tier, setting.shrink, setting.shadows);
+        if let Some((_, share)) = self.wrong.iter().find(|(known, _)| *known == decides) {
             return *share;
         }
-        let [width, height] = self.stage.size();
-        let found = sights(self.stage.scene(), tier, [width / shrink, height / shrink]);
-        let share = share_wrong(&self.true_sights, width, &found, shrink);
-        self.wrong.push((tier, shrink, share));
+        let [width, height] = self.stage.size().map(|side| side / setting.shrink);
+        let found = sights(self.stage.scene(), setting.tier, [width, height]);
+        let share = share_wrong(&self.true_sights, self.stage.size()[0], &found, setting.shrink);
+        self.wrong.push((decides, share));
         share
     }
 

@@ -64,7 +64,7 @@ fn look<T: Tier>(scene: &Scene, traversal: &mut Traversal, film: (T::Wide, T::Wi
     });
     let mut sights = eight(|i| Sight { prim: prim(i), lit: 0 });
     for (bit, light) in scene.lights.iter().take(64).enumerate() {
-        let lit = reached::<T>(light, traversal, &places);
+        let lit = reached::<T>(light, scene.settings.shadows.then_some(&mut *traversal), &places);
         sights.iter_mut().enumerate().for_each(|(i, sight)| sight.lit |= u64::from(lit >> i & 1) << bit);
     }
     sights
@@ -90,10 +90,10 @@ fn leave<R: Real>(
     (offset_along(surface.point, surface.error, normal), normal)
 }
 
-/// The lanes whose place a light reaches, as bits.
+/// The lanes whose place a light reaches, as bits: all that face it, where nothing is asked for what stands between.
 fn reached<T: Tier>(
     light: &Light,
-    traversal: &mut Traversal,
+    between: Option<&mut Traversal>,
     places: &[Option<Place<T::Real>>; WIDTH],
 ) -> u32 {
     let zero = T::Real::zero();
@@ -102,6 +102,7 @@ fn reached<T: Tier>(
     let to_light = eight(|i| light.illuminate(origin[i]).to_light);
     let faces = |i: usize| places[i].is_some_and(|(_, normal)| to_light[i].dot(normal) > zero);
     let asked: u32 = (0..WIDTH).map(|i| u32::from(faces(i)) << i).sum();
+    let Some(between) = between else { return asked };
     let t_max = |i: usize| if asked >> i & 1 != 0 { light.t_max() } else { f64::NEG_INFINITY };
     let lanes = |v: &[Vec3<T::Real>; WIDTH]| Vec3 {
         x: T::Wide::from_fn(|i| v[i].x),
@@ -115,7 +116,7 @@ fn reached<T: Tier>(
         t_min: T::Wide::zero(),
         t_max: T::Wide::from_fn(|i| T::Real::constant(t_max(i))),
     };
-    asked & !traversal.any::<T>(&rays, Hint::Incoherent)
+    asked & !between.any::<T>(&rays, Hint::Incoherent)
 }
 
 #[cfg(test)]
@@ -149,7 +150,7 @@ mod tests {
         let text = "[camera]\nposition = [0, 0, 9]\nlook_at = [0, 0, 0]\nfov_deg = 60\n\
             [[light.directional]]\ndirection = [-1, 0, -1]\nintensity = 1\n\
             [[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 1]\n[[sphere]]\ncenter = [0, 0, 2]\nradius = 1\n";
-        let scene = Scene::compile(&parse(text, "test.toml").unwrap()).unwrap();
+        let mut scene = Scene::compile(&parse(text, "test.toml").unwrap()).unwrap();
         let all = sights(&scene, TierName::Watertight, SIZE);
         let kinds = |kind: PrimKind, lit: u64| {
             let of = |s: &&Sight| s.lit == lit && s.prim.is_some_and(|(prim, _)| PrimId(prim).kind() == kind);
@@ -157,5 +158,11 @@ mod tests {
         };
         assert!(kinds(PrimKind::Sphere, 1) > 20 && kinds(PrimKind::Plane, 1) > 400);
         assert!((10..100).contains(&kinds(PrimKind::Plane, 0)), "{} in shadow", kinds(PrimKind::Plane, 0));
+
+        // A picture without shadows is wrong where they belong.
+        scene.settings.shadows = false;
+        let without = sights(&scene, TierName::Watertight, SIZE);
+        let shade = kinds(PrimKind::Plane, 0) as f64 / all.len() as f64;
+        assert_eq!(share_wrong(&all, SIZE[0], &without, 1), shade);
     }
 }
