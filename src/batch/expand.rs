@@ -12,6 +12,7 @@ use super::keyframes::Track;
 use super::pattern::{self, Names};
 use super::picture::{Picture, PictureFile};
 use super::source::Source;
+use super::whole::whole;
 use super::{BatchError, frames, seed};
 use crate::output::Format;
 
@@ -117,7 +118,7 @@ impl<'a> Axes<'a> {
             camera.iter().flat_map(|c| c.set.iter().map(|(key, value)| format!("camera.{key}={value}")));
         let of_frame =
             frame.iter().flat_map(|&frame| self.tracks.iter().map(move |track| track.at(frame as f64)));
-        let of_choice = choice.iter().map(|(key, value)| format!("{key}={value}"));
+        let of_choice = choice.iter().map(|(key, value)| format!("{key}={}", whole(value)));
         let name = camera.map(|c| c.name.as_str());
         let names = Names { job: &job.name, frame, camera: name, choice: number, values: choice };
         let file = |output: &Output| file(output, &names);
