@@ -8,7 +8,7 @@ use super::report::Summary;
 use crate::batch::run::{Failure, RunOptions, RunReport, Watch, run};
 use crate::batch::{Plan, Shard, Store, default_threads};
 use crate::cli::error::{CliError, Exit};
-use crate::cli::log;
+use crate::cli::log::Log;
 use crate::cli::pipeline::Progress;
 use crate::cli::progress::Reporter;
 use crate::cli::signals::Interrupt;
@@ -20,8 +20,11 @@ pub(super) fn with_reporter(
     work: impl FnOnce(&Reporter, &Interrupt) -> Result<Summary, CliError>,
 ) -> Result<(), CliError> {
     let reporter = Arc::new(Reporter::new(args.progress, args.quiet));
-    let begun = log::begin(args.log.as_deref()).and_then(|()| listen(&reporter));
-    match begun.and_then(|interrupt| work(&reporter, &interrupt)) {
+    let told = Log::begin(args.log.as_deref()).and_then(|log| {
+        let outcome = listen(&reporter).and_then(|interrupt| work(&reporter, &interrupt));
+        log.judged(outcome)
+    });
+    match told {
         Ok(summary) => {
             reporter.done(&summary);
             Ok(())
