@@ -201,6 +201,20 @@ fn wrappers_know_how_many_shards_schedulers_take() {
     assert!(said.starts_with("#!/bin/sh\n"), "{said}");
 }
 
+#[test]
+fn wrappers_name_the_plan_and_every_shard() {
+    let folder = folder(SMALL);
+    for (wrapper, words) in [
+        (
+            "slurm",
+            &[
+                "--array=0-7",
+                "--requeue",
+                "--open-mode=append",
+                "--signal=B:USR1@30",
+                "exec octray run turn.plan --shard auto",
+                "afterany",
+                "exec octray merge turn.plan",
             ][..],
         ),
         ("openjd", &["jobtemplate-2023-09", "0-7", "/8", "dependsOn"]),

@@ -18,6 +18,9 @@ use work::{Batch, with_reporter};
 /// `octray plan`.
 pub fn plan(args: &PlanArgs) -> Result<(), CliError> {
     let job = Job::read(&args.job)?;
+    if let Some(advice) = args.emit.map(|wrapper| wrapper.check(args.shards)).transpose()?.flatten() {
+        stdio::say(&format!("warning: {advice}"));
+    }
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.plan", job.name)));
     let plan = Plan::of(&job, args.split.into(), args.shards, folder_of(&path))?;
     plan.write(&path)?;
