@@ -13,6 +13,7 @@ use crate::cli::pipeline::Progress;
 use crate::cli::progress::Reporter;
 use crate::cli::signals::Interrupt;
 use crate::cli::simd;
+use crate::load::KeptMeshes;
 
 /// Does `work` with somebody to tell the user, and tells how it ended.
 pub(super) fn with_reporter(
@@ -52,6 +53,8 @@ pub(super) struct Batch<'a> {
     pub(super) output: &'a Path,
     pub(super) shard: Option<Shard>,
     pub(super) work: &'a WorkArgs,
+    /// Those that making the plan has loaded, if it was made here.
+    pub(super) meshes: &'a KeptMeshes,
 }
 
 impl Batch<'_> {
@@ -70,6 +73,7 @@ impl Batch<'_> {
             max_memory_bytes: self.work.max_memory,
             fail_fast: self.work.fail_fast,
             stop: interrupt.flag(),
+            meshes: self.meshes,
             watch: &Told(reporter),
         };
         tracing::info!(name = self.plan.name, units = self.plan.units(), threads, "run");
