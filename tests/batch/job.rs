@@ -24,6 +24,20 @@ fn bad_jobs_name_the_file_the_line_and_what_was_expected() {
         fails(folder.path(), "plan turn.toml", 3, words);
         assert!(!folder.path().join("turn.plan").exists());
     }
+    let keyframes = "[[keyframes]]\nkey = \"camera.fov_deg\"\nframes = [1]\nvalues = [40]\n";
+    let sweep = "[sweep]\n\"camera.fov_deg\" = { list = [30, 40] }\n";
+    for (job, words) in [
+        (format!("{keyframes}{keyframes}"), "`camera.fov_deg` has keyframes twice"),
+        (format!("{keyframes}{sweep}"), "is swept and has keyframes"),
+        (
+            "[[output]]\npath = \"b/a.0001.png/c.exr\"\n[[output]]\npath = \"b/a.png\"\n".into(),
+            "the folder of",
+        ),
+        ("[[output]]\npath = \"a\\u0000.png\"\n".into(), "a\\0.0001.png"),
+    ] {
+        let folder = folder(&format!("scene = \"seed\"\nframes = \"1\"\n{job}{output}"));
+        fails(folder.path(), "plan turn.toml", 3, &[words]);
+    }
     for (path, aovs, words) in [
         ("../a.png", "", "below the output folder"),
         ("/a.png", "", "below the output folder"),
@@ -143,20 +157,6 @@ fn keyframes_are_the_values_of_single_renders() {
     assert!(bytes("a.2.png") == bytes("one.png") && bytes("a.3.png") != bytes("one.png"));
 }
 
-#[test]
-fn wrappers_name_the_plan_and_every_shard() {
-    let folder = folder(SMALL);
-    for (wrapper, words) in [
-        (
-            "slurm",
-            &[
-                "--array=0-7",
-                "--requeue",
-                "--open-mode=append",
-                "--signal=B:USR1@30",
-                "exec octray run turn.plan --shard auto",
-                "afterany",
-                "exec octray merge turn.plan",
 /// Samples and sizes are counted: what lies between two of them is refused, not rounded.
 #[test]
 fn keys_that_count_are_keyframed_and_swept_in_whole_numbers() {
