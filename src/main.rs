@@ -4,11 +4,12 @@ use std::process::ExitCode;
 
 use clap::Parser;
 use octray::cli::{
-    Args, Verb, batch, bench, compare, completions, exit_code, inspect, man, render, scenes, schema,
+    Args, Verb, batch, begin, bench, compare, completions, exit_code, inspect, man, render, scenes, schema,
     tradeoff, verify,
 };
 
 fn main() -> ExitCode {
+    begin();
     exit_code(match Args::parse().verb {
         Verb::Render(args) => render::run(&args),
         Verb::Batch(args) => batch::run_job(&args),

@@ -10,13 +10,23 @@ const PARALLEL: &str = include_str!("emit/parallel.sh");
 /// A shell script that submits an array job and a merge that runs when all of it has ended, well or not: the merge looks
 /// for itself what is there.
 pub fn slurm(plan: &Plan, path: &str) -> String {
-    filled(SLURM, plan, &quoted(path))
+    let text = filled(SLURM, plan, &quoted(path));
+    match plan.shards > USUAL_SLURM_SHARDS {
+        true => text.replacen("set -eu\n", &format!("{}set -eu\n", large_array(plan.shards)), 1),
+        false => text,
+    }
 }
 
 /// An Open Job Description template: a step of shards, and one that merges.
 pub fn openjd(plan: &Plan, path: &str) -> String {
     filled(OPENJD, plan, &serde_json::Value::from(path).to_string())
 }
+
+/// Most indexes of a Kubernetes job that may all run at the same time and are tried again one by one.
+pub const MOST_K8S_SHARDS: u32 = 100_000;
+
+/// Most elements of a Slurm array where `MaxArraySize` is what Slurm itself sets: 1001, and indexes stay below it.
+pub const USUAL_SLURM_SHARDS: u32 = 1001;
 
 /// A Kubernetes Indexed Job; the merge is run when it is complete.
 pub fn k8s(plan: &Plan, path: &str) -> String {
@@ -26,6 +36,14 @@ pub fn k8s(plan: &Plan, path: &str) -> String {
 /// A shell script for GNU parallel.
 pub fn parallel(plan: &Plan, path: &str) -> String {
     filled(PARALLEL, plan, &quoted(path))
+}
+
+/// What to know before an array of so many is submitted.
+fn large_array(shards: u32) -> String {
+    format!(
+        "# {shards} shards need MaxArraySize={shards} or more in slurm.conf (where it is not set: {USUAL_SLURM_SHARDS}):\n\
+         # see scontrol show config | grep MaxArraySize, or make the plan with fewer --shards.\n"
+    )
 }
 
 fn filled(template: &str, plan: &Plan, path: &str) -> String {

@@ -12,6 +12,7 @@ use super::keyframes::Track;
 use super::pattern::{self, Names};
 use super::picture::{Picture, PictureFile};
 use super::source::Source;
+use super::whole::whole;
 use super::{BatchError, frames, seed};
 use crate::output::Format;
 
@@ -54,6 +55,7 @@ impl<'a> Axes<'a> {
         if !job.keyframes.is_empty() && job.frames.is_none() {
             return Err("keyframes need `frames`".into());
         }
+        one_source(job)?;
         let frames = match &job.frames {
             Some(text) => {
                 frames::parse(text).map_err(|e| format!("frames: {e}"))?.into_iter().map(Some).collect()
@@ -117,7 +119,7 @@ impl<'a> Axes<'a> {
             camera.iter().flat_map(|c| c.set.iter().map(|(key, value)| format!("camera.{key}={value}")));
         let of_frame =
             frame.iter().flat_map(|&frame| self.tracks.iter().map(move |track| track.at(frame as f64)));
-        let of_choice = choice.iter().map(|(key, value)| format!("{key}={value}"));
+        let of_choice = choice.iter().map(|(key, value)| format!("{key}={}", whole(value)));
         let name = camera.map(|c| c.name.as_str());
         let names = Names { job: &job.name, frame, camera: name, choice: number, values: choice };
         let file = |output: &Output| file(output, &names);
@@ -156,7 +158,26 @@ fn job_has_twice(picture: &Picture, path: &str) -> bool {
     picture.outputs.iter().filter(|file| file.path == path).count() > 1
 }
 
-/// No two pictures share a file.
+/// No key has its values from two places, of which one would be for nothing.
+fn one_source(job: &Job) -> Result<(), String> {
+    for (at, keyframes) in job.keyframes.iter().enumerate() {
+        let key = &keyframes.key;
+        if job.keyframes[..at].iter().any(|other| other.key == *key) {
+            return Err(format!("`{key}` has keyframes twice: put all of them into one [[keyframes]]"));
+        }
+        if job.sweep.contains_key(key) {
+            return Err(format!("`{key}` is swept and has keyframes: only one of them can set it"));
+        }
+    }
+    Ok(())
+}
+
+/// The path of a file that a path has as a folder.
+fn file_above<'p>(path: &'p str, owner: &HashMap<String, &str>) -> Option<&'p str> {
+    path.match_indices('/').map(|(at, _)| &path[..at]).find(|folder| owner.contains_key(*folder))
+}
+
+/// No two pictures share a file, and none is the folder of another.
 fn distinct(pictures: &[Picture]) -> Result<(), String> {
     let mut owner: HashMap<String, &str> = HashMap::new();
     for picture in pictures {
@@ -172,5 +193,9 @@ fn distinct(pictures: &[Picture]) -> Result<(), String> {
             }
         }
     }
-    Ok(())
+    let mut files = pictures.iter().flat_map(|picture| &picture.outputs);
+    match files.find_map(|file| file_above(&file.path, &owner).map(|above| (&file.path, above))) {
+        Some((path, above)) => Err(format!("output `{above}` would be a file, and the folder of `{path}`")),
+        None => Ok(()),
+    }
 }

@@ -3,6 +3,7 @@
 use toml::Value;
 
 use super::job::{Interpolation, Keyframes};
+use super::whole::whole;
 
 /// A track of numbers over frames.
 pub(super) struct Track<'a> {
@@ -43,7 +44,7 @@ impl<'a> Track<'a> {
             n if n == frames.len() => self.points[n - 1].clone(),
             n => self.between(n - 1, (frame - frames[n - 1]) / (frames[n] - frames[n - 1])),
         };
-        let numbers: Vec<Value> = value.into_iter().map(Value::Float).collect();
+        let numbers: Vec<Value> = value.into_iter().map(|x| whole(&Value::Float(x))).collect();
         let text = match &self.keyframes.values[0] {
             Value::Array(_) => Value::Array(numbers).to_string(),
             _ => numbers[0].to_string(),
@@ -125,7 +126,16 @@ mod tests {
     #[test]
     fn vectors_stay_vectors() {
         let k = keyframes("key='k'\nframes=[0, 2]\nvalues=[[0, 1, 2], [2, 1, 0]]");
-        assert_eq!(Track::new(&k).unwrap().at(1.0), "k=[1.0, 1.0, 1.0]");
+        assert_eq!(Track::new(&k).unwrap().at(1.0), "k=[1, 1, 1]");
+    }
+
+    /// Keys that count things take the whole numbers of a track, and refuse what lies between.
+    #[test]
+    fn whole_numbers_stay_whole() {
+        let k = keyframes("key='k'\nframes=[0, 2, 4]\nvalues=[1, 3, 4.0]");
+        let track = Track::new(&k).unwrap();
+        let found = [0.0, 1.0, 2.0, 3.0, 4.0].map(|frame| track.at(frame));
+        assert_eq!(found, ["k=1", "k=2", "k=3", "k=3.5", "k=4"]);
     }
 
     #[test]

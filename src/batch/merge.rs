@@ -11,6 +11,7 @@ use super::plan::Split;
 use super::source::Source;
 use super::threads::workers;
 use super::{BatchError, Plan, Store};
+use crate::load::KeptMeshes;
 
 /// Which units are done.
 #[derive(Clone, Debug, Default)]
@@ -79,7 +80,7 @@ pub fn status(plan: &Plan, store: &Store) -> Result<Status, BatchError> {
 /// **Errors:** units that are not what was recorded, a changed scene.
 pub fn merge(plan: &Plan, folder: &Path, store: &Store, partial: bool) -> Result<u64, BatchError> {
     plan.check_sources(folder)?;
-    let source = Source::read(&plan.scene, &folder.join(&plan.root))?;
+    let source = Source::read(&plan.scene, &folder.join(&plan.root), &KeptMeshes::default())?;
     let there = |picture: &Picture| match plan.split {
         Split::Frames => whole(picture, store),
         Split::Tiles | Split::Samples => joined(plan, picture, store, &source, partial),

@@ -34,6 +34,7 @@ mod source;
 mod store;
 mod threads;
 mod unit;
+mod whole;
 
 pub use error::BatchError;
 pub use job::Job;

@@ -27,7 +27,8 @@ pub(super) fn path(pattern: &str, names: &Names) -> Result<String, String> {
     let path = braces(&hashes(&pattern, names.frame.unwrap_or(0)), names)?;
     if !is_below(&path) {
         return Err(format!(
-            "output `{path}` must lie below the output folder: neither absolute nor with `..`"
+            "output `{}` must lie below the output folder: neither absolute nor with `..` or the character 0",
+            path.escape_debug()
         ));
     }
     Ok(plain(&path))
@@ -41,7 +42,7 @@ fn plain(path: &str) -> String {
 /// Whether a path stays in the folder that it starts from.
 pub(super) fn is_below(path: &str) -> bool {
     let plain = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
-    !path.is_empty() && Path::new(path).components().all(plain)
+    !path.is_empty() && !path.contains('\0') && Path::new(path).components().all(plain)
 }
 
 fn with_frame(pattern: &str) -> String {

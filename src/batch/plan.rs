@@ -9,11 +9,12 @@ use super::expand::pictures;
 use super::job::Job;
 use super::paths::relative;
 use super::picture::Picture;
-use super::source::Source;
+use super::source::{self, Source};
 use super::threads::workers;
 use super::unit::{Cut, Unit};
 use super::{BatchError, Shard};
 use crate::film::AovSet;
+use crate::load::KeptMeshes;
 use crate::output::write_atomically;
 
 /// The first words of a plan, with the version of its format.
@@ -81,11 +82,17 @@ pub struct Cost {
 }
 
 impl Plan {
-    /// The plan of a job, for a file in the folder `at`.
+    /// The plan of a job, for a file in the folder `at`. A scene that is a bare mesh is kept in `meshes`.
     ///
     /// **Errors:** a scene that is not valid, naming the picture; assets that cannot be read; two pictures in one file.
-    pub fn of(job: &Job, split: Split, shards: u32, at: &Path) -> Result<Self, BatchError> {
-        let source = Source::read(&job.scene, &job.folder)?;
+    pub fn of(
+        job: &Job,
+        split: Split,
+        shards: u32,
+        at: &Path,
+        meshes: &KeptMeshes,
+    ) -> Result<Self, BatchError> {
+        let source = Source::read(&job.scene, &job.folder, meshes)?;
         let mut files = Files::default();
         files.see(source.scene());
         let mut pictures = workers()?.install(|| pictures(job, &source, &mut files))?;
@@ -203,9 +210,8 @@ impl Plan {
     /// Fails if the scene or an asset is not what it was; `folder` is that of the plan.
     pub fn check_sources(&self, folder: &Path) -> Result<(), BatchError> {
         let root = folder.join(&self.root);
-        let source = Source::read(&self.scene, &root)?;
         let mut changed = changes(&self.assets, &root);
-        if hash(&source.bytes) != self.scene_blake3 {
+        if hash(&source::bytes(&self.scene, &root)?) != self.scene_blake3 {
             changed.insert(0, format!("the scene {} has changed since the plan was made", self.scene));
         }
         if changed.is_empty() { Ok(()) } else { Err(BatchError::Changed(changed)) }

@@ -16,6 +16,7 @@ use std::time::{Duration, Instant};
 use super::scenes::Scenes;
 use super::source::Source;
 use super::{BatchError, Plan, Shard, Store};
+use crate::load::KeptMeshes;
 use crate::wavefront::{Progress, Scratch};
 use finish::{Finished, write_all};
 use left::{Left, left};
@@ -36,6 +37,8 @@ pub struct RunOptions<'a> {
     pub fail_fast: bool,
     /// Threads stop after their tile when this turns true.
     pub stop: &'a AtomicBool,
+    /// Meshes that scenes share; may hold those that were loaded to make the plan.
+    pub meshes: &'a KeptMeshes,
     /// Is told how it goes.
     pub watch: &'a dyn Watch,
 }
@@ -89,8 +92,8 @@ pub fn run(plan: &Plan, folder: &Path, store: &Store, options: &RunOptions) -> R
     let begun = Instant::now();
     plan.check_sources(folder)?;
     let Left { to_do, done: done_before, nan_samples } = left(plan, store, options.shard)?;
-    let source = Source::read(&plan.scene, &folder.join(&plan.root))?;
-    let scenes = Scenes::new(&source, &plan.sets, options.threads, options.max_memory_bytes)?;
+    let source = Source::read(&plan.scene, &folder.join(&plan.root), options.meshes)?;
+    let scenes = Scenes::new(&source, &plan.sets, options.threads, options.max_memory_bytes, options.meshes)?;
     options.watch.begin(to_do.len() as u64, done_before);
     let total = to_do.iter().map(|&unit| plan.unit(unit).cost()).fold(0, u64::saturating_add);
     let waiting = to_do.into_iter().map(|unit| Waiting { unit, size_bytes: plan.size_bytes(unit) });

@@ -31,7 +31,7 @@ pub(super) struct Scenes<'a> {
     common: &'a [String],
     workers: rayon::ThreadPool,
     max_bytes: u64,
-    meshes: KeptMeshes,
+    meshes: &'a KeptMeshes,
     /// The one used last stands last.
     kept: Mutex<Vec<Entry>>,
 }
@@ -42,10 +42,10 @@ impl<'a> Scenes<'a> {
         common: &'a [String],
         threads: usize,
         max_bytes: u64,
+        meshes: &'a KeptMeshes,
     ) -> Result<Self, BatchError> {
         let workers =
             rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(RenderError::from)?;
-        let meshes = KeptMeshes::keeping();
         Ok(Self { source, common, workers, max_bytes, meshes, kept: Mutex::default() })
     }
 
@@ -62,7 +62,7 @@ impl<'a> Scenes<'a> {
 
     fn compile(&self, description: &SceneDescription, like: Option<&Scene>) -> Result<Arc<Scene>, String> {
         tracing::info!(moved = like.is_some(), "scene compiled");
-        let compiled = self.workers.install(|| Scene::compile_like(description, &self.meshes, like));
+        let compiled = self.workers.install(|| Scene::compile_like(description, self.meshes, like));
         compiled.map(Arc::new).map_err(|error| error.to_string())
     }
 

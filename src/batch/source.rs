@@ -1,10 +1,10 @@
 //! The scene that a job is about, read once.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use super::BatchError;
 use crate::describe::{self, SceneDescription};
-use crate::load::load_mesh;
+use crate::load::KeptMeshes;
 use crate::scene::Scene;
 
 /// Endings of meshes, which a scene is framed around.
@@ -24,16 +24,15 @@ pub(super) fn is_file(name: &str) -> bool {
 }
 
 impl Source {
-    /// Reads a scene file or mesh relative to `folder`, or a built-in scene.
-    pub(super) fn read(name: &str, folder: &Path) -> Result<Self, BatchError> {
-        if !is_file(name) {
-            let scene = describe::builtin(name)?.ok_or_else(|| BatchError::Job(unknown(name)))?;
-            let bytes = scene.to_toml().into_bytes();
-            return Ok(Self { name: name.to_owned(), scene, bytes });
-        }
+    /// Reads a scene file or mesh relative to `folder`, or a built-in scene. A bare mesh is framed, and kept in `meshes`.
+    pub(super) fn read(name: &str, folder: &Path, meshes: &KeptMeshes) -> Result<Self, BatchError> {
+        let bytes = bytes(name, folder)?;
         let path = folder.join(name);
-        let bytes = std::fs::read(&path).map_err(|cause| BatchError::read(&path, cause))?;
-        let scene = if is_mesh(&path) { framed(&path)? } else { describe::read(&path)? };
+        let scene = match name {
+            _ if !is_file(name) => builtin(name)?,
+            _ if is_mesh(&path) => framed(&path, meshes)?,
+            _ => describe::read(&path)?,
+        };
         Ok(Self { name: name.to_owned(), scene, bytes })
     }
 
@@ -56,6 +55,19 @@ impl Source {
     }
 }
 
+/// The bytes of a scene file or mesh relative to `folder`, or of a built-in scene written out.
+pub(super) fn bytes(name: &str, folder: &Path) -> Result<Vec<u8>, BatchError> {
+    if !is_file(name) {
+        return Ok(builtin(name)?.to_toml().into_bytes());
+    }
+    let path = folder.join(name);
+    std::fs::read(&path).map_err(|cause| BatchError::read(&path, cause))
+}
+
+fn builtin(name: &str) -> Result<SceneDescription, BatchError> {
+    describe::builtin(name)?.ok_or_else(|| BatchError::Job(unknown(name)))
+}
+
 fn unknown(name: &str) -> String {
     let known: Vec<&str> = describe::builtin_scenes().iter().map(|scene| scene.usage).collect();
     let known = known.join(", ");
@@ -66,12 +78,13 @@ fn is_mesh(path: &Path) -> bool {
     path.extension().is_some_and(|e| MESHES.contains(&e.to_string_lossy().to_lowercase().as_str()))
 }
 
-fn framed(path: &Path) -> Result<SceneDescription, BatchError> {
-    let bounds = load_mesh(path)?.bounds();
+fn framed(path: &Path, meshes: &KeptMeshes) -> Result<SceneDescription, BatchError> {
+    let (folder, name) =
+        (path.parent().unwrap_or(Path::new("")), Path::new(path.file_name().unwrap_or_default()));
+    let bounds = meshes.load(&describe::Mesh::from_path(name), folder)?.bounds();
     let bounds =
         bounds.ok_or_else(|| BatchError::Job(format!("{}: has no triangle with an area", path.display())))?;
-    let name = PathBuf::from(path.file_name().unwrap_or_default());
-    let mut scene = describe::framed_mesh(&name, bounds.map(|corner| corner.map(f64::from)));
-    scene.folder = path.parent().unwrap_or(Path::new("")).to_owned();
+    let mut scene = describe::framed_mesh(name, bounds.map(|corner| corner.map(f64::from)));
+    scene.folder = folder.to_owned();
     Ok(scene)
 }

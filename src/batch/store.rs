@@ -129,7 +129,7 @@ impl Store {
         Ok(())
     }
 
-    /// The record of a unit if it is done and its files are there.
+    /// The record of a unit if it is done and its files are there; emptied ones are not.
     ///
     /// **Errors:** a record that is damaged or foreign, and files that are not what it says.
     pub(super) fn record(&self, unit: u64) -> Result<Option<Record>, BatchError> {
@@ -141,6 +141,11 @@ impl Store {
             let path = self.resolve(&file.path);
             match fs::metadata(&path) {
                 Ok(found) if found.len() == file.size_bytes => {}
+                // What a crash of the machine leaves of a file, and nobody's work.
+                Ok(found) if found.len() == 0 => {
+                    tracing::warn!(unit, file = %path.display(), "emptied since it was written: not done");
+                    return Ok(None);
+                }
                 Ok(found) => {
                     let (size, was) = (found.len(), file.size_bytes);
                     let reason = format!("has {size} bytes, and {was} when it was written: {ANEW}");

@@ -5,6 +5,7 @@
 
 mod args;
 pub mod batch;
+mod begun;
 pub mod bench;
 pub mod compare;
 pub mod completions;
@@ -34,6 +35,7 @@ pub use args::{
     Args, BuildQuality, CompletionsArgs, InspectArgs, ManArgs, ProgressMode, RenderArgs, SceneArgs,
     ScenesArgs, Tier, Verb,
 };
+pub use begun::begin;
 pub use bench::BenchArgs;
 pub use compare::CompareArgs;
 pub use error::{CliError, Exit, exit_code};

@@ -4,7 +4,9 @@
 
 use std::io::Read;
 use std::path::Path;
+use std::time::{Duration, Instant};
 
+use super::begun;
 use super::error::{CliError, Exit};
 use super::source::SceneSource;
 use crate::describe::{self, DescribeError, Origin, SceneDescription};
@@ -22,6 +24,10 @@ const MESHES: [&str; 3] = ["obj", "ply", "stl"];
 pub(super) struct Opened {
     pub(super) name: String,
     pub(super) scene: Scene,
+    /// Reading and checking it, meshes included.
+    pub(super) load_time: Duration,
+    /// From the program's begin until now, without loading and building.
+    pub(super) start_time: Duration,
 }
 
 /// Reads the scene, applies `assignments` in order, compiles it with as many threads (0: all that there are).
@@ -43,13 +49,33 @@ pub(super) fn open_changed(
     change: impl FnOnce(&mut SceneDescription),
 ) -> Result<Opened, CliError> {
     let sets: Vec<String> = assignments.iter().map(|(key, value)| format!("{key}={value}")).collect();
-    let workers = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    let workers = workers.map_err(|error| CliError::of(Exit::Failed, error))?;
     let meshes = KeptMeshes::keeping();
-    let mut description = workers.install(|| describe(source, &sets, &meshes))?;
+    // Scene files are quickly read: only bare meshes are worth threads before it is known what there is.
+    let workers = if is_mesh(source) { Some(pool(threads)?) } else { None };
+    let read = || describe(source, &sets, &meshes);
+    let reading = Instant::now();
+    let mut description = workers.as_ref().map_or_else(read, |workers| workers.install(read))?;
+    let read_time = reading.elapsed();
     change(&mut description);
+    let threads = if is_small(&description) { 1 } else { threads };
+    let workers = workers.map_or_else(|| pool(threads), Ok)?;
     let scene = workers.install(|| compile(&description, &meshes))?;
-    Ok(Opened { name: source.to_string(), scene })
+    let load_time = read_time + scene.times.load;
+    let start_time = begun::elapsed().saturating_sub(load_time + scene.times.build);
+    Ok(Opened { name: source.to_string(), scene, load_time, start_time })
+}
+
+fn pool(threads: usize) -> Result<rayon::ThreadPool, CliError> {
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+    pool.map_err(|error| CliError::of(Exit::Failed, error))
+}
+
+/// Fewer shapes are compiled by one thread sooner than others could be started.
+const FEW_SHAPES: usize = 1000;
+
+fn is_small(scene: &SceneDescription) -> bool {
+    let shapes = scene.sphere.len() + scene.cylinder.len() + scene.triangle.len() + scene.quad.len();
+    shapes < FEW_SHAPES && scene.mesh.is_empty() && scene.group.is_empty()
 }
 
 fn compile(description: &SceneDescription, meshes: &KeptMeshes) -> Result<Scene, CliError> {

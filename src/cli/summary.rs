@@ -26,6 +26,8 @@ pub(super) struct Summary {
     pub(super) skipped_triangles: usize,
     /// Samples, rays, threads and time of the render itself.
     pub(super) report: RenderReport,
+    /// From the program's begin to its first rays, without reading and compiling the scene.
+    pub(super) start_time: Duration,
     /// Reading and checking the scene.
     pub(super) load_time: Duration,
     /// Compiling the scene and building the tree.
@@ -64,6 +66,7 @@ impl Ending for Summary {
                 "refracted": rays.refracted, "diffuse": rays.diffuse, "total": self.rays(),
             },
             "mrays_per_s": human::millions_a_second(self.rays(), report.render_time),
+            "start_s": self.start_time.as_secs_f64(),
             "load_s": self.load_time.as_secs_f64(),
             "build_s": self.build_time.as_secs_f64(),
             "render_s": report.render_time.as_secs_f64(),
@@ -110,9 +113,9 @@ impl fmt::Display for Summary {
         if let Some(reached) = &report.reached {
             writeln!(f, "reached  {}", told(reached, self.pixels()))?;
         }
-        let times = [self.load_time, self.build_time, report.render_time, self.write_time].map(human::time);
-        let [load, build, render, write] = times;
-        writeln!(f, "time     load {load}, build {build}, render {render}, write {write}")?;
+        let times = [self.start_time, self.load_time, self.build_time, report.render_time, self.write_time];
+        let [start, load, build, render, write] = times.map(human::time);
+        writeln!(f, "time     start {start}, load {load}, build {build}, render {render}, write {write}")?;
         let memory = self.peak_memory_bytes.map_or("unknown".into(), human::bytes);
         let (simd, threads) = (simd::BUILT_FOR.name(), report.threads);
         writeln!(f, "machine  {simd}, {threads} threads, peak memory {memory}")?;
@@ -158,6 +161,7 @@ mod tests {
                 threads: 2,
                 reached: None,
             },
+            start_time: Duration::from_micros(1500),
             load_time: Duration::from_micros(120),
             build_time: Duration::from_micros(340),
             write_time: Duration::from_millis(7),
@@ -173,7 +177,7 @@ mod tests {
         for part in [
             "seed: 640x480, 1.23 M samples",
             "camera 1.23 M, shadow 2.00 M, reflected 5 = 3.23 M; 6.46 Mrays/s",
-            "load 0.12 ms, build 0.34 ms, render 500 ms, write 7.00 ms",
+            "start 1.50 ms, load 0.12 ms, build 0.34 ms, render 500 ms, write 7.00 ms",
             simd::BUILT_FOR.name(),
             "2 threads, peak memory unknown",
             "0 samples were not a number, 0 values",

@@ -65,6 +65,7 @@ impl KeptMeshes {
         }
         // Unlocked meanwhile: two threads may load the same mesh, which is only a waste.
         let loaded = Arc::new(load_described(mesh, folder)?);
+        tracing::info!(triangles = loaded.triangles.len(), "mesh loaded");
         if is_used_again {
             self.kept().meshes.insert(key, Arc::clone(&loaded));
         }
@@ -114,6 +115,8 @@ fn key(mesh: &describe::Mesh, folder: &Path) -> String {
         ..mesh.clone()
     };
     let text = serde_json::to_string(&plain).expect("a mesh has only text and numbers");
+    // However the folder is spelled.
+    let folder = std::path::absolute(folder.join(".")).unwrap_or_else(|_| folder.to_owned());
     format!("{} {text}", folder.display())
 }
 

@@ -21,6 +21,9 @@ mod obj_text;
 mod obj_vertices;
 mod obj_words;
 mod ply;
+#[cfg(test)]
+mod ply_oracle;
+mod ply_strides;
 mod polygon;
 mod stl;
 mod terrain;

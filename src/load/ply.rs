@@ -1,31 +1,50 @@
-//! PLY, text and both binary byte orders, through `ply-rs-bw`.
+//! PLY, text and both binary byte orders: headers through `ply-rs-bw`, and bodies too where they have no fixed strides.
 
 use super::polygon::triangulate;
-use super::{LoadError, Mesh};
+use super::{LoadError, Mesh, ply_strides};
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
-use ply_rs_bw::ply::{ElementDef, Header, Property, PropertyAccess, PropertyAccessResult};
+use ply_rs_bw::ply::{ElementDef, Encoding, Header, Property, PropertyAccess, PropertyAccessResult};
 use std::path::Path;
 
 /// The mesh in a PLY file: `vertex` with `x y z`, optionally `nx ny nz` and texture coordinates, and `face`.
 pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Mesh, LoadError> {
-    let explain = |error: ParseError| malformed(path, error.line(), &error.to_string());
+    let (header, mut reader) = header(path, bytes)?;
+    match ply_strides::read(&header, reader.get_ref()) {
+        Some(mesh) => Ok(mesh),
+        None => read_body(path, &header, &mut reader),
+    }
+}
+
+/// The header of a file with vertices, and what is behind it.
+pub(super) fn header<'a>(path: &Path, bytes: &'a [u8]) -> Result<(Header, Reader<&'a [u8]>), LoadError> {
     let mut reader = Reader::new(bytes);
-    let header = Parser::<Skipped>::new().read_header(&mut reader).map_err(explain)?;
+    let header = Parser::<Skipped>::new().read_header(&mut reader);
+    let header = header.map_err(|error| malformed(path, error.line(), &error.to_string()))?;
+    check_vertex(&header, path)?;
+    Ok((header, reader))
+}
+
+/// The mesh behind a header, whatever its properties are.
+pub(super) fn read_body(path: &Path, header: &Header, reader: &mut Reader<&[u8]>) -> Result<Mesh, LoadError> {
+    let explain = |error: ParseError| malformed(path, error.line(), &error.to_string());
     let mut mesh = Mesh::default();
     for (name, element) in &header.elements {
+        // Takes no byte however many there are, and would take memory for each.
+        if element.properties.is_empty() && header.encoding != Encoding::Ascii {
+            continue;
+        }
         match name.as_str() {
-            "vertex" => add_vertices(&mut mesh, &mut reader, element, &header).map_err(explain)?,
+            "vertex" => add_vertices(&mut mesh, reader, element, header).map_err(explain)?,
             "face" => {
-                let faces = Parser::<Face>::new().read_payload_for_element(&mut reader, element, &header);
+                let faces = Parser::<Face>::new().read_payload_for_element(reader, element, header);
                 add_faces(&mut mesh, &faces.map_err(explain)?, path)?;
             }
             _ => {
                 let skipped = Parser::<Skipped>::new();
-                skipped.read_payload_for_element(&mut reader, element, &header).map_err(explain)?;
+                skipped.read_payload_for_element(reader, element, header).map_err(explain)?;
             }
         }
     }
-    check_vertex(&header, path)?;
     Ok(mesh)
 }
 
@@ -78,7 +97,7 @@ fn add_faces(mesh: &mut Mesh, faces: &[Face], path: &Path) -> Result<(), LoadErr
 }
 
 /// The names under which programs write texture coordinates.
-const UV_NAMES: [[&str; 2]; 4] =
+pub(super) const UV_NAMES: [[&str; 2]; 4] =
     [["s", "t"], ["u", "v"], ["texture_u", "texture_v"], ["texture_s", "texture_t"]];
 
 /// What we keep of a vertex.

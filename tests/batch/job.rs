@@ -24,6 +24,20 @@ fn bad_jobs_name_the_file_the_line_and_what_was_expected() {
         fails(folder.path(), "plan turn.toml", 3, words);
         assert!(!folder.path().join("turn.plan").exists());
     }
+    let keyframes = "[[keyframes]]\nkey = \"camera.fov_deg\"\nframes = [1]\nvalues = [40]\n";
+    let sweep = "[sweep]\n\"camera.fov_deg\" = { list = [30, 40] }\n";
+    for (job, words) in [
+        (format!("{keyframes}{keyframes}"), "`camera.fov_deg` has keyframes twice"),
+        (format!("{keyframes}{sweep}"), "is swept and has keyframes"),
+        (
+            "[[output]]\npath = \"b/a.0001.png/c.exr\"\n[[output]]\npath = \"b/a.png\"\n".into(),
+            "the folder of",
+        ),
+        ("[[output]]\npath = \"a\\u0000.png\"\n".into(), "a\\0.0001.png"),
+    ] {
+        let folder = folder(&format!("scene = \"seed\"\nframes = \"1\"\n{job}{output}"));
+        fails(folder.path(), "plan turn.toml", 3, &[words]);
+    }
     for (path, aovs, words) in [
         ("../a.png", "", "below the output folder"),
         ("/a.png", "", "below the output folder"),
@@ -141,6 +155,50 @@ fn keyframes_are_the_values_of_single_renders() {
     done(folder.path(), "render seed --size 20x15 --spp 1 --set camera.position=[-1.0,2.0,-8.0] -o one.png");
     let bytes = |name: &str| std::fs::read(folder.path().join(name)).unwrap();
     assert!(bytes("a.2.png") == bytes("one.png") && bytes("a.3.png") != bytes("one.png"));
+}
+
+/// Samples and sizes are counted: what lies between two of them is refused, not rounded.
+#[test]
+fn keys_that_count_are_keyframed_and_swept_in_whole_numbers() {
+    let job = |key: &str, values: &str| {
+        format!(
+            "scene = \"seed\"\nsize = [8, 6]\nspp = 1\nframes = \"1-3\"\n[[keyframes]]\nkey = \"{key}\"\n\
+             frames = [1, 3]\nvalues = {values}\n[[output]]\npath = \"{{sweep}}.#.png\"\n\
+             [sweep]\n\"render.max_depth\" = {{ linspace = [1, 5, 3] }}\n\"render.seed\" = {{ range = [1.0, 3, 1] }}\n"
+        )
+    };
+    for (key, values, field, expected) in [
+        ("render.spp", "[1, 5]", "spp", "[1,3,5]"),
+        ("render.spp", "[1.0, 5.0]", "spp", "[1,3,5]"),
+        ("render.size", "[[8, 6], [16, 12]]", "size", "[[8,6],[12,9],[16,12]]"),
+        ("camera.fov_deg", "[40, 50]", "spp", "[1,1,1]"),
+    ] {
+        let folder = folder(&job(key, values));
+        done(folder.path(), "plan turn.toml");
+        let plan = std::fs::read(folder.path().join("turn.plan")).unwrap();
+        let plan: serde_json::Value = serde_json::from_slice(&plan).unwrap();
+        let pictures = plan["pictures"].as_array().unwrap();
+        assert_eq!(pictures.len(), 3 * 3 * 2);
+        let found: Vec<_> = pictures[..3].iter().map(|picture| picture[field].clone()).collect();
+        assert_eq!(serde_json::to_string(&found).unwrap(), expected, "{key}");
+    }
+    fails(folder(&job("render.spp", "[1, 2]")).path(), "plan turn.toml", 3, &["frame 2", "1.5", "u32"]);
+}
+
+#[test]
+fn wrappers_know_how_many_shards_schedulers_take() {
+    let folder = folder(SMALL);
+    let plan = |shards: u32, wrapper: &str| format!("plan turn.toml --shards {shards} --emit {wrapper}");
+    done(folder.path(), &plan(100_000, "k8s"));
+    std::fs::remove_file(folder.path().join("turn.plan")).unwrap();
+    fails(folder.path(), &plan(100_001, "k8s"), 2, &["Kubernetes", "100000", "--shards"]);
+    assert!(!folder.path().join("turn.plan").exists());
+    assert!(!done(folder.path(), &plan(1001, "slurm")).contains("MaxArraySize"));
+    let said = done(folder.path(), &plan(1002, "slurm"));
+    assert!(
+        said.contains("warning: an array of 1002") && said.contains("# 1002 shards need MaxArraySize=1002")
+    );
+    assert!(said.starts_with("#!/bin/sh\n"), "{said}");
 }
 
 #[test]

@@ -35,6 +35,25 @@ fn json_is_one_object_a_line_and_exactly_one_is_final() {
     }
 }
 
+/// The pictures are worth more than their log: all are there, and the exit code says that something is missing.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_log_that_cannot_be_written_is_told_once_and_pictures_are_kept() {
+    let folder = folder(SMALL);
+    for (progress, event) in [("plain", "error: "), ("json", "\"event\":\"failed\"")] {
+        let said = super::fails(
+            folder.path(),
+            &format!("batch turn.toml --log /dev/full --progress {progress}"),
+            1,
+            &["cannot write /dev/full", "everything else is done", event],
+        );
+        assert_eq!(said.matches("/dev/full").count(), 1, "{said}");
+        assert!(folder.path().join("turn.0004.png").exists());
+    }
+    let broken = super::folder("scene = \"none.toml\"\n[[output]]\npath = \"a.png\"\n");
+    super::fails(broken.path(), "batch turn.toml --log /dev/full", 3, &["none.toml"]);
+}
+
 #[test]
 fn quiet_is_quiet_and_the_log_tells_every_unit() {
     let folder = folder(SMALL);

@@ -149,6 +149,34 @@ fn pictures_and_sums_that_are_not_what_was_written_are_found() {
     }
 }
 
+/// What a crash of the machine may leave: files without their bytes are done again, others are named.
+#[test]
+fn finished_files_that_were_emptied_are_done_again_and_cut_ones_are_named() {
+    let folder = folder(SMALL);
+    let path = folder.path();
+    for split in ["frames", "tiles"] {
+        done(path, &format!("plan turn.toml --split {split}"));
+        done(path, "run turn.plan --force");
+        let file =
+            if split == "frames" { path.join("a/turn.0002.exr") } else { state(path, "0000/0000001.sums") };
+        let name = file.file_name().unwrap().to_str().unwrap();
+        let whole = fs::read(&file).unwrap();
+        fs::write(&file, "").unwrap();
+        assert!(done(path, "status turn.plan").contains("3 of 4 units"));
+        fails(path, "merge turn.plan", 3, &["--array=0", "1 of 4 units are missing"]);
+        let said = done(path, "run turn.plan --log log.txt");
+        assert!(said.contains("1 units done, 3 were done before"), "{said}");
+        assert!(fs::read(&file).unwrap() == whole);
+        let log = fs::read_to_string(path.join("log.txt")).unwrap();
+        assert!(log.contains(name) && log.contains("emptied"), "{log}");
+        fs::write(&file, &whole[..whole.len() / 2]).unwrap();
+        fails(path, "run turn.plan", 3, &[name, "bytes", "delete it"]);
+        fs::remove_file(&file).unwrap();
+        done(path, "run turn.plan");
+        assert!(fs::read(&file).unwrap() == whole);
+    }
+}
+
 #[test]
 fn damaged_checkpoints_are_refused_and_the_rest_goes_on() {
     let folder = folder(SMALL);

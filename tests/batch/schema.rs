@@ -76,6 +76,28 @@ fn the_job_with_every_key_has_every_key() {
     }
 }
 
+/// A number is a number, with or without a point.
+#[test]
+fn scenes_may_be_written_in_whole_numbers() {
+    let folder = tempfile::TempDir::new().unwrap();
+    let schema = serde_json::from_str(&done(folder.path(), "schema")).unwrap();
+    let validator = jsonschema::validator_for(&schema).unwrap();
+    for name in ["seed", "cornell", "glass", "spheres", "instances"] {
+        let scene = done(folder.path(), &format!("scenes --write {name}"));
+        let whole = [",", "]", " ", "\n"]
+            .iter()
+            .fold(scene.clone(), |text, after| text.replace(&format!(".0{after}"), after));
+        assert!(whole.len() < scene.len(), "{name} has no whole number");
+        std::fs::write(folder.path().join("whole.toml"), &whole).unwrap();
+        assert!(validator.is_valid(&json(&whole)), "{name}");
+        for (scene, file) in [("whole.toml", "whole.ppm"), (name, "scene.ppm")] {
+            done(folder.path(), &format!("render {scene} --size 12x8 --spp 1 -o {file}"));
+        }
+        let bytes = |file: &str| std::fs::read(folder.path().join(file)).unwrap();
+        assert!(bytes("whole.ppm") == bytes("scene.ppm"), "{name}");
+    }
+}
+
 #[test]
 fn what_the_parser_refuses_the_schema_refuses() {
     let validator = jsonschema::validator_for(&schema()).unwrap();

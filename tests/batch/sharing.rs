@@ -86,6 +86,28 @@ fn cameras_and_seeds_share_one_scene() {
     assert_eq!(pictures(&folder.path().join("out")).len(), 20);
 }
 
+/// A mesh without a scene is framed before it is rendered: by what was loaded already.
+#[test]
+fn a_bare_mesh_is_loaded_once_for_plan_and_pictures() {
+    let job =
+        "scene = \"tent.obj\"\nsize = [8, 6]\nspp = 1\nframes = \"1-3\"\n[[output]]\npath = \"a.#.png\"\n";
+    let folder = super::folder(job);
+    let path = folder.path();
+    std::fs::write(path.join("tent.obj"), "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 3 4\n").unwrap();
+    let loads = |args: &str| {
+        let _ = std::fs::remove_file(path.join("log.txt"));
+        done(path, &format!("{args} --log log.txt"));
+        std::fs::read_to_string(path.join("log.txt")).unwrap().matches("mesh loaded").count()
+    };
+    assert_eq!(loads("batch turn.toml -o a"), 1);
+    assert_eq!(loads("batch ./turn.toml -o b"), 1, "a folder is the same however it is spelled");
+    done(path, "plan turn.toml");
+    assert_eq!(loads("run turn.plan -o c"), 1);
+    let bytes = |file: &str| std::fs::read(path.join(file)).unwrap();
+    done(path, "render tent.obj --size 8x6 --spp 1 -o one.png");
+    assert!(["a/a.1.png", "b/a.2.png", "c/a.3.png"].iter().all(|file| bytes(file) == bytes("one.png")));
+}
+
 /// Peak memory of a batch.
 fn peak_bytes(folder: &std::path::Path, options: &str) -> u64 {
     peak_of(&mut command(folder, &format!("batch turn.toml -o out --force --progress json {options}")))

@@ -8,6 +8,7 @@ use clap::{ValueEnum, ValueHint};
 use crate::batch::plan::MOST_SHARDS;
 use crate::batch::{Plan, Split, emit};
 use crate::cli::ProgressMode;
+use crate::cli::error::{CliError, Exit};
 
 /// Arguments of `octray plan`.
 #[derive(Debug, clap::Args)]
@@ -155,6 +156,24 @@ pub enum Wrapper {
 }
 
 impl Wrapper {
+    /// Fails if the scheduler takes no job of so many shards; tells what its site must have set for it, if anything.
+    pub fn check(self, shards: u32) -> Result<Option<String>, CliError> {
+        let (most, usual) = (emit::MOST_K8S_SHARDS, emit::USUAL_SLURM_SHARDS);
+        match self {
+            Self::K8s if shards > most => {
+                let what = format!("Kubernetes takes indexed jobs of at most {most} shards, not {shards}");
+                Err(CliError::new(
+                    Exit::Usage,
+                    format!("{what}: make the plan with --shards {most} or fewer"),
+                ))
+            }
+            Self::Slurm if shards > usual => Ok(Some(format!(
+                "an array of {shards} needs MaxArraySize={shards} or more in slurm.conf, which is {usual} unless the site set it"
+            ))),
+            _ => Ok(None),
+        }
+    }
+
     /// The script.
     pub fn text(self, plan: &Plan, path: &Path) -> String {
         let path = path.to_string_lossy();

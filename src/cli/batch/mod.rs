@@ -11,15 +11,19 @@ use serde_json::json;
 use super::error::{CliError, Exit};
 use super::stdio;
 use crate::batch::{self, Job, Plan, Shard, Split, Store};
+use crate::load::KeptMeshes;
 
 pub use args::{BatchArgs, MergeArgs, PlanArgs, RunArgs, SplitBy, StatusArgs, WorkArgs, Wrapper};
 use work::{Batch, with_reporter};
 
 /// `octray plan`.
 pub fn plan(args: &PlanArgs) -> Result<(), CliError> {
+    if let Some(advice) = args.emit.map(|wrapper| wrapper.check(args.shards)).transpose()?.flatten() {
+        stdio::say(&format!("warning: {advice}"));
+    }
     let job = Job::read(&args.job)?;
     let path = args.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.plan", job.name)));
-    let plan = Plan::of(&job, args.split.into(), args.shards, folder_of(&path))?;
+    let plan = Plan::of(&job, args.split.into(), args.shards, folder_of(&path), &KeptMeshes::default())?;
     plan.write(&path)?;
     match args.emit {
         Some(wrapper) => stdio::print(wrapper.text(&plan, &path).as_bytes()),
@@ -40,17 +44,31 @@ pub fn run_plan(args: &RunArgs) -> Result<(), CliError> {
             |name: &str| std::env::var_os(name).map(|value| value.to_string_lossy().into_owned());
         let shard =
             args.shard.as_ref().map(|text| Shard::parse(text, plan.shards, environment)).transpose()?;
-        Batch { plan: &plan, folder: folder_of(&args.plan), output: &args.output, shard, work: &args.work }
-            .run(reporter, interrupt)
+        Batch {
+            plan: &plan,
+            folder: folder_of(&args.plan),
+            output: &args.output,
+            shard,
+            work: &args.work,
+            meshes: &KeptMeshes::keeping(),
+        }
+        .run(reporter, interrupt)
     })
 }
 
 /// `octray batch`.
 pub fn run_job(args: &BatchArgs) -> Result<(), CliError> {
     with_reporter(&args.work, |reporter, interrupt| {
-        let plan = Plan::of(&Job::read(&args.job)?, args.split.into(), 1, Path::new(""))?;
-        let batch =
-            Batch { plan: &plan, folder: Path::new(""), output: &args.output, shard: None, work: &args.work };
+        let meshes = KeptMeshes::keeping();
+        let plan = Plan::of(&Job::read(&args.job)?, args.split.into(), 1, Path::new(""), &meshes)?;
+        let batch = Batch {
+            plan: &plan,
+            folder: Path::new(""),
+            output: &args.output,
+            shard: None,
+            work: &args.work,
+            meshes: &meshes,
+        };
         let report = batch.run(reporter, interrupt)?;
         if plan.split != Split::Frames {
             let store = Store::look(&args.output, &plan)?;

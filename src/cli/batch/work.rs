@@ -8,11 +8,12 @@ use super::report::Summary;
 use crate::batch::run::{Failure, RunOptions, RunReport, Watch, run};
 use crate::batch::{Plan, Shard, Store, default_threads};
 use crate::cli::error::{CliError, Exit};
-use crate::cli::log;
+use crate::cli::log::Log;
 use crate::cli::pipeline::Progress;
 use crate::cli::progress::Reporter;
 use crate::cli::signals::Interrupt;
 use crate::cli::simd;
+use crate::load::KeptMeshes;
 
 /// Does `work` with somebody to tell the user, and tells how it ended.
 pub(super) fn with_reporter(
@@ -20,8 +21,11 @@ pub(super) fn with_reporter(
     work: impl FnOnce(&Reporter, &Interrupt) -> Result<Summary, CliError>,
 ) -> Result<(), CliError> {
     let reporter = Arc::new(Reporter::new(args.progress, args.quiet));
-    let begun = log::begin(args.log.as_deref()).and_then(|()| listen(&reporter));
-    match begun.and_then(|interrupt| work(&reporter, &interrupt)) {
+    let told = Log::begin(args.log.as_deref()).and_then(|log| {
+        let outcome = listen(&reporter).and_then(|interrupt| work(&reporter, &interrupt));
+        log.judged(outcome)
+    });
+    match told {
         Ok(summary) => {
             reporter.done(&summary);
             Ok(())
@@ -49,6 +53,8 @@ pub(super) struct Batch<'a> {
     pub(super) output: &'a Path,
     pub(super) shard: Option<Shard>,
     pub(super) work: &'a WorkArgs,
+    /// Those that making the plan has loaded, if it was made here.
+    pub(super) meshes: &'a KeptMeshes,
 }
 
 impl Batch<'_> {
@@ -67,6 +73,7 @@ impl Batch<'_> {
             max_memory_bytes: self.work.max_memory,
             fail_fast: self.work.fail_fast,
             stop: interrupt.flag(),
+            meshes: self.meshes,
             watch: &Told(reporter),
         };
         tracing::info!(name = self.plan.name, units = self.plan.units(), threads, "run");
