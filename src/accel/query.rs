@@ -7,6 +7,8 @@ use crate::math::{BitLane, Lane, Mask};
 pub trait Query<L: Lane> {
     /// Any hit will do, so the order of visits hardly matters.
     const ANY: bool;
+    /// Asks anew, of rays that end at `t_max`.
+    fn begin(&mut self, t_max: L);
     /// Lanes need nothing at or beyond this `t`; minus infinity where a lane needs nothing more.
     fn limit(&self) -> L;
     /// Takes note of candidates; true if any was accepted.
@@ -89,6 +91,13 @@ impl<L: Lane> Closest<L> {
 impl<L: Lane> Query<L> for Closest<L> {
     const ANY: bool = false;
 
+    #[inline(always)]
+    fn begin(&mut self, t_max: L) {
+        let (zero, none) = (L::zero(), L::Bits::splat(0));
+        (self.t, self.limit) = (t_max, t_max);
+        (self.u, self.v, self.prim, self.instance) = (zero, zero, none, none);
+        self.current_instance = 0;
+    }
     #[inline(always)]
     fn limit(&self) -> L {
         self.limit
@@ -195,6 +204,10 @@ impl<L: Lane> AnyHit<L> {
 impl<L: Lane> Query<L> for AnyHit<L> {
     const ANY: bool = true;
 
+    #[inline(always)]
+    fn begin(&mut self, t_max: L) {
+        *self = Self::new(t_max);
+    }
     #[inline(always)]
     fn limit(&self) -> L {
         self.limit

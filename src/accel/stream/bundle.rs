@@ -37,7 +37,7 @@ pub(super) struct Workplace<T: Tier> {
     likely: [(Candidate, u32); room_for(WIDTH)],
     pending: [Pending<T>; WIDTH],
     /// For bundles inside of instances.
-    inner: Option<Box<Self>>,
+    inner: Option<Box<(Frustum, Self)>>,
 }
 
 impl<T: Tier> Default for Workplace<T> {
@@ -55,7 +55,7 @@ impl<T: Tier> Default for Workplace<T> {
 
 /// Packets of a bundle with what they ask.
 pub(super) struct Bundle<'a, T: Tier, Q> {
-    frustum: Frustum,
+    frustum: &'a mut Frustum,
     rays: &'a [RayLanes<T::Wide>],
     work: &'a mut Workplace<T>,
     queries: &'a mut [Q],
@@ -75,10 +75,10 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         rays: &'a [RayLanes<T::Wide>],
         apex: Apex,
         tree: TreeRoot,
-        work: &'a mut Workplace<T>,
+        (frustum, work): (&'a mut Frustum, &'a mut Workplace<T>),
         queries: &'a mut [Q],
     ) -> Option<Self> {
-        let mut frustum = Frustum::around::<T>(rays, apex, tree)?;
+        frustum.surround::<T>(rays, apex, tree)?;
         for (j, query) in queries.iter().enumerate() {
             frustum.look(j, T::above_f32(query.limit()));
         }
@@ -149,7 +149,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         self.queries.iter_mut().for_each(|query| query.enter_instance(placed.row + 1));
         self.settle_all();
         let mut work = self.work.inner.take().unwrap_or_default();
-        let inside = Bundle::<T, Q>::new(rays, apex, placed.tree, &mut work, self.queries);
+        let inside = Bundle::<T, Q>::new(rays, apex, placed.tree, (&mut work.0, &mut work.1), self.queries);
         let done = inside.is_some_and(|mut inside| {
             let done = inside.descend(accel, root, stacks);
             self.met += inside.met;
@@ -182,7 +182,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         while left != 0 {
             let i = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            let packets = packets(&self.frustum, i) & all;
+            let packets = packets(self.frustum, i) & all;
             self.work.pairs.push(i, packets);
             wanted |= packets;
         }

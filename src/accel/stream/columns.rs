@@ -51,19 +51,37 @@ impl<R: Real> RayColumns<'_, R> {
     /// Eight rays from row `at` on; those beyond the end are turned off.
     #[inline(always)]
     pub(super) fn load<L: Lane<Scalar = R>>(&self, at: usize) -> RayLanes<L> {
-        let t_max = self.t_max.load::<L>(at);
-        let t_max = match self.len - at {
-            count if count < WIDTH => {
-                L::select(L::Mask::from_bits((1 << count) - 1), t_max, L::constant(f64::NEG_INFINITY))
-            }
-            _ => t_max,
-        };
         RayLanes {
             origin: load3(&self.origin, at),
             direction: load3(&self.direction, at),
             t_min: self.t_min.load(at),
-            t_max,
+            t_max: self.t_max_at(at),
         }
+    }
+
+    #[inline(always)]
+    fn t_max_at<L: Lane<Scalar = R>>(&self, at: usize) -> L {
+        let t_max = self.t_max.load::<L>(at);
+        match self.len - at {
+            count if count < WIDTH => {
+                L::select(L::Mask::from_bits((1 << count) - 1), t_max, L::constant(f64::NEG_INFINITY))
+            }
+            _ => t_max,
+        }
+    }
+
+    /// The same to where they are kept: built elsewhere and copied in wider pieces, they wait for the stores to be done.
+    #[inline(always)]
+    pub(super) fn load_to<L: Lane<Scalar = R>>(&self, at: usize, rays: &mut RayLanes<L>) {
+        let (o, d) = (&mut rays.origin, &mut rays.direction);
+        for (lane, column) in [&mut o.x, &mut o.y, &mut o.z].into_iter().zip(self.origin) {
+            *lane = load(column, at);
+        }
+        for (lane, column) in [&mut d.x, &mut d.y, &mut d.z].into_iter().zip(self.direction) {
+            *lane = load(column, at);
+        }
+        rays.t_min = self.t_min.load(at);
+        rays.t_max = self.t_max_at(at);
     }
 
     /// The ray of a row.

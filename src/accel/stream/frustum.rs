@@ -84,11 +84,40 @@ pub(super) struct Frustum {
     edge_pad: f32x8,
 }
 
+/// Around nothing.
+impl Default for Frustum {
+    fn default() -> Self {
+        let none = Slopes { a: [f32x8::ZERO; 2], b: [f32x8::ZERO; 2] };
+        Self {
+            view: View { axes: [0, 1, 2], backward: false, apex: [0.0; 3] },
+            is_target: false,
+            octant: 0,
+            all: none,
+            packets: none,
+            middle: [f32x8::ZERO; 2],
+            all_about_middle: none,
+            packets_about_middle: none,
+            spread: f32x8::ZERO,
+            along: [f32x8::ONE; WIDTH],
+            packet_reach: [f32::NEG_INFINITY; WIDTH],
+            reach: f32::NEG_INFINITY,
+            side_pad: f32x8::ZERO,
+            edge_pad: f32x8::ZERO,
+        }
+    }
+}
+
 impl Frustum {
-    /// The pyramid around packets; `None` where they have no axis in common or go too far apart.
+    /// Puts the pyramid around packets; `None`, and of no use, where they have no axis in common, go too far apart, or lie
+    /// so far out that a bound overflows. In place, as it is large.
     ///
     /// **Needs:** one to eight packets.
-    pub(super) fn around<T: Tier>(packets: &[RayLanes<T::Wide>], apex: Apex, tree: TreeRoot) -> Option<Self> {
+    pub(super) fn surround<T: Tier>(
+        &mut self,
+        packets: &[RayLanes<T::Wide>],
+        apex: Apex,
+        tree: TreeRoot,
+    ) -> Option<()> {
         let (point, is_target) = match apex {
             Apex::Origin(point) => (point, false),
             Apex::Target(point) => (point, true),
@@ -97,7 +126,7 @@ impl Frustum {
         let lead = asked::<T>(first).trailing_zeros() as usize;
         let view = View::along(from_apex::<T>(first, point, is_target).get(lead), point);
         let mut a = [f32x8::ZERO; WIDTH];
-        let (mut b, mut along) = (a, [f32x8::ONE; WIDTH]);
+        let mut b = a;
         let (mut astray, mut far) = (f32x8::ZERO, Vec3::zero());
         for (j, rays) in packets.iter().enumerate() {
             let asked = asked::<T>(rays);
@@ -105,7 +134,7 @@ impl Frustum {
                 return None;
             }
             let seen = view.direction(from_apex::<T>(rays, point, is_target));
-            (a[j], b[j], along[j]) = slopes(seen, asked)?;
+            (a[j], b[j], self.along[j]) = slopes(seen, asked)?;
             let origin = narrow::<T>(rays.origin);
             let by = match is_target {
                 true => passes_by::<T>(rays, &view, seen),
@@ -122,11 +151,13 @@ impl Frustum {
         let scale = greatest(tree.scale_for(far).max(far.max_component()));
         let size = point.iter().fold(scale, |size, x| size.max(x.abs()));
         let close = greatest(astray) <= size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32;
-        let packets = Slopes { a: range(a), b: range(b) };
         if !close {
             return None;
         }
-        Self { view, is_target, along, ..Self::with(packets, 2.0 * size) }.oriented()
+        (self.view, self.is_target) = (view, is_target);
+        self.packet_reach = [f32::NEG_INFINITY; WIDTH];
+        self.set_slopes(Slopes { a: range(a), b: range(b) });
+        self.set_pads(2.0 * size)
     }
 
     /// What the rays have in common.
@@ -135,39 +166,29 @@ impl Frustum {
         if self.is_target { Apex::Target(point) } else { Apex::Origin(point) }
     }
 
-    /// The pyramid of some slopes, in a scene of some size.
-    fn with(packets: Slopes, size: f32) -> Self {
+    /// Takes the slopes of packets, and from them the order of visits.
+    #[inline(always)]
+    fn set_slopes(&mut self, packets: Slopes) {
         let whole = |s: [f32x8; 2]| [f32x8::splat(least(s[0])), f32x8::splat(greatest(s[1]))];
-        let pad = |roundoffs: f64| f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32);
         let all = Slopes { a: whole(packets.a), b: whole(packets.b) };
         let half = f32x8::splat(0.5);
         let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
-        let all_about_middle = all.about(middle);
-        Self {
-            view: View { axes: [0, 1, 2], backward: false, apex: [0.0; 3] },
-            is_target: false,
-            octant: 0,
-            all,
-            packets,
-            middle,
-            all_about_middle,
-            packets_about_middle: packets.about(middle),
-            spread: all_about_middle.greatest(),
-            along: [f32x8::ONE; WIDTH],
-            packet_reach: [f32::NEG_INFINITY; WIDTH],
-            reach: f32::NEG_INFINITY,
-            side_pad: pad(SIDE_ROUNDOFFS),
-            edge_pad: pad(EDGE_ROUNDOFFS),
-        }
+        (self.all, self.packets, self.middle) = (all, packets, middle);
+        self.all_about_middle = all.about(middle);
+        self.packets_about_middle = packets.about(middle);
+        self.spread = self.all_about_middle.greatest();
+        let [x, y, z] = self.view.axes;
+        let backward = |middle: f32x8| usize::from(middle.get(0) < 0.0);
+        self.octant =
+            backward(middle[0]) << x | backward(middle[1]) << y | usize::from(self.view.backward) << z;
     }
 
-    /// With the order of visits; `None` where coordinates are so large that a bound overflows.
-    fn oriented(mut self) -> Option<Self> {
-        let [x, y, z] = self.view.axes;
-        let backward = |s: [f32x8; 2]| usize::from(s[0].get(0) + s[1].get(0) < 0.0);
-        self.octant =
-            backward(self.all.a) << x | backward(self.all.b) << y | usize::from(self.view.backward) << z;
-        self.edge_pad.get(0).is_finite().then_some(self)
+    /// Takes the size of coordinates; `None` where a bound overflows.
+    #[inline(always)]
+    fn set_pads(&mut self, size: f32) -> Option<()> {
+        let pad = |roundoffs: f64| f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32);
+        (self.side_pad, self.edge_pad) = (pad(SIDE_ROUNDOFFS), pad(EDGE_ROUNDOFFS));
+        self.edge_pad.get(0).is_finite().then_some(())
     }
 
     /// Takes note that the rays of packet `j` need nothing at or beyond `limit`; [`Frustum::update_reach`] must follow.

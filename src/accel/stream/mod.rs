@@ -22,6 +22,7 @@ use flight::{Alone, Flight};
 
 pub use columns::{Bound, HitColumns, RayColumns};
 pub use frustum::Apex;
+use frustum::Frustum;
 
 /// Packets in a bundle.
 const BUNDLE: usize = WIDTH;
@@ -182,6 +183,7 @@ struct Bundles<'a, T: Tier> {
     accel: &'a Accel,
     traversal: Traversal<'a>,
     rays: Box<[RayLanes<T::Wide>; BUNDLE]>,
+    frustum: Box<Frustum>,
     work: Box<Workplace<T>>,
     /// Where a bundle does not pay, its neighbours hardly would.
     pace: Pace,
@@ -193,6 +195,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             accel,
             traversal: Traversal::new(accel),
             rays: Box::new([no_rays(); BUNDLE]),
+            frustum: Box::default(),
             work: Box::default(),
             pace: Pace::default(),
         }
@@ -216,8 +219,8 @@ impl<'a, T: Tier> Bundles<'a, T> {
             return;
         }
         for (j, at) in packets.clone().enumerate() {
-            self.rays[j] = rays.load::<T::Wide>(at);
-            queries[j] = A::ask(&self.rays[j]);
+            rays.load_to(at, &mut self.rays[j]);
+            queries[j].begin(self.rays[j].t_max);
             ask_planes(self.accel, &self.rays[j], &mut queries[j]);
         }
         let queries = &mut queries[..packets.len()];
@@ -244,7 +247,8 @@ impl<'a, T: Tier> Bundles<'a, T> {
     fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> bool {
         let world = self.accel.world;
         let rays = &self.rays[..queries.len()];
-        let Some(mut bundle) = Bundle::new(rays, apex, world, &mut self.work, queries) else {
+        let Some(mut bundle) = Bundle::new(rays, apex, world, (&mut self.frustum, &mut self.work), queries)
+        else {
             return false;
         };
         let mut stacks =
