@@ -7,8 +7,6 @@ use wide::{f32x8, u32x8};
 
 /// How a leaf is walked: which primitive stands in which lane at a step.
 pub trait Walk: Copy {
-    /// Steps for `len` primitives.
-    fn steps(len: u32) -> usize;
     /// A stored column at a step.
     fn value<L: Lane>(column: &[f32; WIDTH], step: usize) -> L;
     /// Stored ids at a step.
@@ -33,10 +31,6 @@ pub struct PrimitivesByRay;
 
 impl Walk for RaysByPrimitive {
     #[inline(always)]
-    fn steps(len: u32) -> usize {
-        len as usize
-    }
-    #[inline(always)]
     fn value<L: Lane>(column: &[f32; WIDTH], step: usize) -> L {
         use crate::math::Real;
         L::splat(L::Scalar::from_f32(column[step]))
@@ -52,10 +46,6 @@ impl Walk for RaysByPrimitive {
 }
 
 impl Walk for PrimitivesByRay {
-    #[inline(always)]
-    fn steps(_: u32) -> usize {
-        1
-    }
     #[inline(always)]
     fn value<L: Lane>(column: &[f32; WIDTH], _: usize) -> L {
         L::load_f32(column)
