@@ -29,6 +29,7 @@ pub(super) trait Descend: Walk {
     fn reaching(entry: &Self::Entry, limit: f32x8) -> u32;
     /// Pushes the children that any ray meets within its range, the last to visit first.
     fn push_children(
+        accel: &Accel,
         node: &Node8,
         cull: &CullRay<f32x8>,
         octant: Octant,
@@ -130,7 +131,7 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
         saved += costs.saved(child, rays_in);
         if child.is_node() {
             let node = &accel.nodes[child.index() as usize];
-            D::push_children(node, &rays.cull, octant, (t_min, limit), stack);
+            D::push_children(accel, node, &rays.cull, octant, (t_min, limit), stack);
         } else if child.kind() == Accel::INSTANCE {
             D::settle::<T, Q>(&rays.test, query, &mut kept);
             accel.visit_instance::<T, Q>(child, &rays.test.ray, query, |root, local, query| {

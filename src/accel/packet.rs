@@ -2,13 +2,13 @@
 //!
 //! An entry on the stack keeps the distance of each ray, so that popping it needs one comparison.
 
-use super::Accel;
 use super::block::RaysByPrimitive;
 use super::descend::{Descend, Octant};
 use super::leaf::{EachPrimitive, TestRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::pending::Pending;
 use super::query::Query;
+use super::{Accel, unchecked};
 use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
 use crate::math::{Lane, Mask, Vec3, WIDTH, three};
@@ -40,6 +40,7 @@ impl Descend for RaysByPrimitive {
 
     #[inline(always)]
     fn push_children(
+        accel: &Accel,
         node: &Node8,
         cull: &CullRay<f32x8>,
         octant: Octant,
@@ -55,6 +56,7 @@ impl Descend for RaysByPrimitive {
             let meets = Lane::le(enter, leave);
             if meets.any() {
                 let near = <f32x8 as Lane>::select(meets, enter, f32x8::splat(f32::INFINITY));
+                unchecked::prefetch(accel, child);
                 stack.push(Entry { near, child });
             }
         }

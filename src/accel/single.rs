@@ -46,6 +46,7 @@ impl Descend for PrimitivesByRay {
 
     #[inline(always)]
     fn push_children(
+        _: &Accel,
         node: &Node8,
         cull: &CullRay<f32x8>,
         octant: Octant,

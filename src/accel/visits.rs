@@ -45,7 +45,7 @@ impl Accel {
             if child.is_node() {
                 visits.nodes += 1;
                 let node = &self.nodes[child.index() as usize];
-                PrimitivesByRay::push_children(node, &rays.cull, octant, (t_min, limit), &mut stack);
+                PrimitivesByRay::push_children(self, node, &rays.cull, octant, (t_min, limit), &mut stack);
                 continue;
             }
             visits.blocks += 1;

@@ -1,14 +1,14 @@
 //! Up to 64 rays down the tree together: their pyramid against eight children a test.
 //!
 //! Plainly: each packet of eight rays is tested against every primitive that the pyramid of all rays meets. Departures:
-//! - in a leaf the pyramid is tested against eight primitives at once, then a primitive against the pyramids of eight
-//!   packets at once; only the pairs that are left run the primitive test, first all its cheap half, then what may hit:
+//! - in a leaf the pyramid is tested against eight primitives at once, then the box of a primitive against the pyramids of
+//!   eight packets at once; only the pairs that are left run the primitive test, first all its cheap half, then what may hit:
 //!   loops that overlap from pair to pair and have little to guess;
 //! - a bundle that meets many primitives is given up: its rays are too far apart for the size of the primitives, and the
 //!   packets go on from what they have found.
 
 use super::candidates::{Candidate, Candidates, room_for};
-use super::frustum::{Apex, Boxes, Frustum};
+use super::frustum::{Apex, Frustum, Sight};
 use crate::accel::Accel;
 use crate::accel::block::RaysByPrimitive;
 use crate::accel::descend::descend;
@@ -17,14 +17,15 @@ use crate::accel::leaf::{BlockVisitor, PreparedRays, TestRays, Testable, with_bl
 use crate::accel::node::ChildRef;
 use crate::accel::pending::Pending;
 use crate::accel::query::Query;
-use crate::accel::{packet, single};
+use crate::accel::{packet, single, unchecked};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Mask, WIDTH, three};
+use wide::f32x8;
 
-/// Primitives met by the pyramid up to which a bundle pays: two a ray.
-const PAYS: usize = 2 * WIDTH * WIDTH;
+/// Primitives met by the pyramid up to which a bundle pays: six a ray.
+const PAYS: usize = 6 * WIDTH * WIDTH;
 /// Those after which it is given up: by then it costs less to go on than to begin otherwise, unless there are many more.
-const BUDGET: usize = 3 * WIDTH * WIDTH;
+const BUDGET: usize = 8 * WIDTH * WIDTH;
 
 /// What a worker keeps for bundles.
 pub(super) struct Workplace<T: Tier> {
@@ -133,6 +134,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         let near = near.to_array();
         for slot in (0..WIDTH).rev().map(|i| i ^ self.frustum.octant) {
             if meets >> slot & 1 != 0 && !node.child[slot].is_empty() {
+                unchecked::prefetch(accel, node.child[slot]);
                 stack.push(single::Entry::new(near[slot], node.child[slot]));
             }
         }
@@ -169,20 +171,15 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
 
     /// Tests the primitives of a block that the pyramid meets, each against the packets that may meet it.
     #[inline(always)]
-    fn visit_primitives<B: Testable>(
-        &mut self,
-        block: &B,
-        met: u32,
-        packets: impl Fn(&Frustum, usize) -> u32,
-    ) -> bool {
-        let mut left = met & ((1 << block.count()) - 1);
+    fn visit_primitives<B: Testable>(&mut self, block: &B, sight: &Sight, met: u32) -> bool {
+        let mut left = met;
         self.met += left.count_ones() as usize;
         self.work.pairs.clear();
         let (all, mut wanted) = ((1 << self.rays.len()) - 1, 0);
         while left != 0 {
             let i = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            let packets = packets(self.frustum, i) & all;
+            let packets = self.frustum.packets(sight, i) & all;
             self.work.pairs.push(i, packets);
             wanted |= packets;
         }
@@ -261,16 +258,19 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        match block.corners_of_triangles() {
-            Some(corners) => {
-                let edges = self.frustum.edges(corners);
-                self.visit_primitives(block, self.frustum.triangles(&edges), |f, i| f.packets_at(&edges, i))
-            }
-            None => {
-                let extent = three(|k| block.extent(k));
-                let boxes: Boxes = self.frustum.view().boxes(|k| extent[k][0], |k| extent[k][1]);
-                self.visit_primitives(block, self.frustum.primitives(&boxes), |f, i| f.packets(&boxes, i))
-            }
+        let (frustum, there) = (&*self.frustum, (1 << block.count()) - 1);
+        let Some(corners) = block.corners_of_triangles() else {
+            let extent = three(|k| block.extent(k));
+            let sight = frustum.sight(&frustum.view().boxes(|k| extent[k][0], |k| extent[k][1]));
+            return self.visit_primitives(block, &sight, frustum.sees(&sight) & there);
+        };
+        let corners = three(|v| frustum.view().point(|k| f32x8::new(corners[v][k])));
+        let [a, b, c] = corners;
+        let sight = frustum.sight(&[a.min(b).min(c), a.max(b).max(c)]);
+        let mut met = frustum.sees(&sight) & there;
+        if met & frustum.wide(&sight) != 0 {
+            met &= frustum.triangles(corners);
         }
+        self.visit_primitives(block, &sight, met)
     }
 }

@@ -19,12 +19,10 @@ use wide::f32x8;
 use crate::accel::instance::TreeRoot;
 use crate::accel::node::Node8;
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Lane, Mask, Real, Transform, Vec3, WIDTH, three};
+use crate::math::{Lane, Mask, Real, Transform, Vec3, WIDTH};
 use edges::Edges;
 use slopes::{Slopes, greatest, least, range, slopes};
-use view::View;
-
-pub(super) use view::Boxes;
+use view::{Boxes, View};
 
 /// What rays of a stream have in common. It changes time, never results: rays that it is not true of go another way.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +57,14 @@ const SIDE_ROUNDOFFS: f64 = 192.0;
 /// test as here; an edge function is the sum of two products of two such; and twice that.
 const EDGE_ROUNDOFFS: f64 = 128.0;
 
+/// Where eight primitives stand, as rays see them.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sight {
+    slopes: Slopes,
+    /// Where along `z` they start.
+    nearest: f32x8,
+}
+
 /// The pyramid around up to eight packets.
 #[derive(Clone, Debug)]
 pub(super) struct Frustum {
@@ -70,8 +76,7 @@ pub(super) struct Frustum {
     packets: Slopes,
     /// Slopes of the middle, and those above relative to it.
     middle: [f32x8; 2],
-    all_about_middle: Slopes,
-    packets_about_middle: Slopes,
+    about_middle: Slopes,
     /// Largest slope about the middle.
     spread: f32x8,
     /// Length of the directions along `z`, by packet.
@@ -95,8 +100,7 @@ impl Default for Frustum {
             all: none,
             packets: none,
             middle: [f32x8::ZERO; 2],
-            all_about_middle: none,
-            packets_about_middle: none,
+            about_middle: none,
             spread: f32x8::ZERO,
             along: [f32x8::ONE; WIDTH],
             packet_reach: [f32::NEG_INFINITY; WIDTH],
@@ -174,9 +178,8 @@ impl Frustum {
         let half = f32x8::splat(0.5);
         let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
         (self.all, self.packets, self.middle) = (all, packets, middle);
-        self.all_about_middle = all.about(middle);
-        self.packets_about_middle = packets.about(middle);
-        self.spread = self.all_about_middle.greatest();
+        self.about_middle = all.about(middle);
+        self.spread = self.about_middle.greatest();
         let [x, y, z] = self.view.axes;
         let backward = |middle: f32x8| usize::from(middle.get(0) < 0.0);
         self.octant =
@@ -215,18 +218,39 @@ impl Frustum {
         (self.meets(&self.all, &[lo, hi], f32x8::splat(self.reach)), lo.z)
     }
 
-    /// Of eight primitives in their boxes, those that rays may meet.
+    /// The slopes at which rays may meet eight primitives in their boxes.
     #[inline(always)]
-    pub(super) fn primitives(&self, boxes: &Boxes) -> u32 {
-        self.meets(&self.all, boxes, f32x8::splat(self.reach))
+    pub(super) fn sight(&self, [lo, hi]: &Boxes) -> Sight {
+        let (at_near, at_far) = (f32x8::ONE / lo.z, f32x8::ONE / hi.z);
+        let infinity = f32x8::splat(f32::INFINITY);
+        let in_front = lo.z.gt(self.side_pad) & at_near.lt(infinity);
+        let pad = self.side_pad * at_near;
+        let range = |lo: f32x8, hi: f32x8| {
+            let least = (lo * at_near).min(lo * at_far) - pad;
+            let greatest = (hi * at_near).max(hi * at_far) + pad;
+            [Lane::select(in_front, least, -infinity), Lane::select(in_front, greatest, infinity)]
+        };
+        Sight { slopes: Slopes { a: range(lo.x, hi.x), b: range(lo.y, hi.y) }, nearest: lo.z }
+    }
+
+    /// Of eight primitives, those that rays may meet.
+    #[inline(always)]
+    pub(super) fn sees(&self, sight: &Sight) -> u32 {
+        (sight.slopes.overlap(&self.all) & sight.nearest.le(f32x8::splat(self.reach))).bits()
+    }
+
+    /// Of eight primitives, those that cover more than the pyramid in some direction.
+    #[inline(always)]
+    pub(super) fn wide(&self, sight: &Sight) -> u32 {
+        sight.slopes.wider_than(&self.all).bits()
     }
 
     /// Packets that may meet primitive `i`.
     #[inline(always)]
-    pub(super) fn packets(&self, boxes: &Boxes, i: usize) -> u32 {
-        let one = |v: Vec3<f32x8>| Vec3::splat(v.get(i));
+    pub(super) fn packets(&self, sight: &Sight, i: usize) -> u32 {
         let reach = f32x8::new(self.packet_reach) + self.side_pad;
-        self.meets(&self.packets, &[one(boxes[0]), one(boxes[1])], reach)
+        let nearest = f32x8::splat(sight.nearest.get(i));
+        (sight.slopes.splat(i).overlap(&self.packets) & nearest.le(reach)).bits()
     }
 
     /// Lanes where no side of the pyramid has the whole box outside.
@@ -243,31 +267,11 @@ impl Frustum {
         (outside.le(pad) & lo.z.le(reach)).bits()
     }
 
-    /// The edge functions of eight triangles, from stored corners.
+    /// Of eight triangles, given by their corners, those that rays may meet: told by their edges, not by their boxes.
     #[inline(always)]
-    pub(super) fn edges(&self, corner: &[[[f32; WIDTH]; 3]; 3]) -> Edges {
-        let corners = three(|v| self.view.point(|k| f32x8::new(corner[v][k])));
-        Edges::of(corners, self.middle, self.spread, self.edge_pad)
-    }
-
-    /// Of eight triangles, those that rays may meet.
-    #[inline(always)]
-    pub(super) fn triangles(&self, edges: &Edges) -> u32 {
-        edges.met(&self.all_about_middle, f32x8::splat(self.reach))
-    }
-
-    /// Packets that may meet triangle `i`.
-    #[inline(always)]
-    pub(super) fn packets_at(&self, edges: &Edges, i: usize) -> u32 {
-        let one = Edges {
-            normal: three(|e| Vec3::splat(edges.normal[e].get(i))),
-            pad: f32x8::splat(edges.pad.get(i)),
-            nearest: f32x8::splat(edges.nearest.get(i)),
-            farthest: f32x8::splat(edges.farthest.get(i)),
-            volume: f32x8::splat(edges.volume.get(i)),
-        };
-        let reach = f32x8::new(self.packet_reach) + self.side_pad;
-        one.met(&self.packets_about_middle, reach)
+    pub(super) fn triangles(&self, corners: [Vec3<f32x8>; 3]) -> u32 {
+        let edges = Edges::of(corners, self.middle, self.spread, self.edge_pad);
+        edges.met(&self.about_middle, f32x8::splat(self.reach))
     }
 
     /// How rays see things.

@@ -14,8 +14,7 @@ use crate::math::{Lane, Mask, Vec3, fused_cross, fused_dot, three};
 pub(in super::super) struct Edges {
     pub(super) normal: [Vec3<f32x8>; 3],
     pub(super) pad: f32x8,
-    /// Least and greatest `z`.
-    pub(super) nearest: f32x8,
+    /// Greatest `z`.
     pub(super) farthest: f32x8,
     /// Six times the volume between the apex and the triangle: `z` is this over `sum of normal . (a, b, 1)`.
     pub(super) volume: f32x8,
@@ -29,13 +28,7 @@ impl Edges {
         let size = a.abs().max(b.abs()).max(c.abs());
         let across = Lane::max(size.x, size.y) + spread * size.z;
         let normal = [fused_cross(b, c), fused_cross(c, a), fused_cross(a, b)];
-        Self {
-            normal,
-            pad: pad * across,
-            nearest: a.z.min(b.z).min(c.z),
-            farthest: a.z.max(b.z).max(c.z),
-            volume: fused_dot(normal[0], a),
-        }
+        Self { normal, pad: pad * across, farthest: a.z.max(b.z).max(c.z), volume: fused_dot(normal[0], a) }
     }
 
     /// Lanes where not all rays pass on the outer side of one edge, and not all meet the plane of the triangle beyond their
@@ -59,6 +52,6 @@ impl Edges {
         let slack = pad * self.farthest.abs();
         let beyond = (front & (self.volume - slack).gt(reach * (whole.1 + pad)))
             | (back & (-self.volume - slack).gt(reach * (pad - whole.0)));
-        (self.nearest.le(reach) & !(missed | beyond)).bits()
+        (!(missed | beyond)).bits()
     }
 }

@@ -7,7 +7,7 @@ use crate::math::{Lane, Mask, Vec3, WIDTH};
 /// Largest slope: beyond it rays go too far apart, or along another axis.
 const MAX_SLOPE: f32 = 2.0;
 
-/// Slopes: of one pyramid in all lanes, or of a packet a lane.
+/// Slopes: of one pyramid in all lanes, or of a packet a lane, or those at which eight boxes are seen.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Slopes {
     /// Least and greatest `x / z`.
@@ -21,6 +21,23 @@ impl Slopes {
     pub(super) fn greatest(&self) -> f32x8 {
         let either = |s: [f32x8; 2]| Lane::max(s[0].abs(), s[1].abs());
         Lane::max(either(self.a), either(self.b))
+    }
+    /// Lanes in which both have slopes in common.
+    #[inline(always)]
+    pub(super) fn overlap(&self, o: &Self) -> <f32x8 as Lane>::Mask {
+        (self.a[0].le(o.a[1]) & o.a[0].le(self.a[1])) & (self.b[0].le(o.b[1]) & o.b[0].le(self.b[1]))
+    }
+    /// Lanes in which these reach over more than the others, one way or the other.
+    #[inline(always)]
+    pub(super) fn wider_than(&self, o: &Self) -> <f32x8 as Lane>::Mask {
+        let wide = |s: [f32x8; 2]| s[1] - s[0];
+        wide(self.a).gt(wide(o.a)) | wide(self.b).gt(wide(o.b))
+    }
+    /// Those of lane `i`, in all lanes.
+    #[inline(always)]
+    pub(super) fn splat(&self, i: usize) -> Self {
+        let one = |s: [f32x8; 2]| [f32x8::splat(s[0].get(i)), f32x8::splat(s[1].get(i))];
+        Self { a: one(self.a), b: one(self.b) }
     }
     /// Relative to those of the middle.
     #[inline(always)]

@@ -36,7 +36,7 @@ impl View {
         Vec3::new(d[x], d[y], if self.backward { -d[z] } else { d[z] })
     }
     #[inline(always)]
-    pub(super) fn point(&self, p: impl Fn(usize) -> f32x8) -> Vec3<f32x8> {
+    pub(in super::super) fn point(&self, p: impl Fn(usize) -> f32x8) -> Vec3<f32x8> {
         let [x, y, z] = three(|i| p(self.axes[i]) - f32x8::splat(self.apex[self.axes[i]]));
         Vec3::new(x, y, if self.backward { -z } else { z })
     }
