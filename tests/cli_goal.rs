@@ -96,12 +96,29 @@ fn time_ends_a_render_with_a_whole_picture() {
     assert!(done["render_s"].as_f64().unwrap() >= 1.0, "all of the time is used: {done}");
     assert!(done["reached"]["samples_fewest"].as_u64().unwrap() >= 1);
     assert!(rmse(&film, &truth) < 0.2, "{done}");
+    assert_eq!(done["reached"]["first_sample_late"], false);
     let (film, done) = render(folder.path(), "seed --size 96x72 --time-limit 1e-9");
+    assert_eq!(done["reached"]["first_sample_late"], true, "the limit was not kept, and that is said");
     assert_eq!(
         (&done["reached"]["samples_fewest"], &done["reached"]["rmse_estimate"]),
         (&1.into(), &Value::Null)
     );
     assert!(rmse(&film, &truth) < 0.5, "no pixel is left out");
+}
+
+#[test]
+fn a_limit_too_short_for_one_sample_is_remarked() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |limit: &str| {
+        let mut command = Command::cargo_bin("octray").unwrap();
+        let args = ["render", "seed", "--size", "48x36", "--spp", "4", "-o", "a.png", "--time-limit", limit];
+        let output = command.current_dir(folder.path()).args(args).output().unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let remark = "the time limit was over before each pixel had its first sample";
+    assert!(told("1e-9").contains(remark));
+    assert!(!told("1e9").contains(remark));
 }
 
 #[test]

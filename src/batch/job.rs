@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 use toml::Value;
 
-use super::BatchError;
+use super::{BatchError, key};
 use crate::describe::{BuildQuality, Tier, exact};
 use crate::film::Aov;
 
@@ -37,11 +37,11 @@ pub struct Job {
     /// Frames, such as `1-100` or `1,3,5..9`; one picture without a number if not given.
     pub frames: Option<String>,
     /// Values in place of the scene's, by key as for `--set`.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "key::map")]
     #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub set: BTreeMap<String, Value>,
     /// Values that change from picture to picture, by key as for `--set`.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "key::map")]
     pub sweep: BTreeMap<String, Sweep>,
     /// Whether every value meets every other one, or each only its fellows of the same place.
     #[serde(default)]
@@ -105,7 +105,7 @@ pub struct JobCamera {
     /// Its name, for `{camera}` in paths.
     pub name: String,
     /// Values in place of the scene's camera, by the camera's keys.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "key::map")]
     #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub set: BTreeMap<String, Value>,
 }
@@ -115,6 +115,7 @@ pub struct JobCamera {
 #[serde(deny_unknown_fields)]
 pub struct Keyframes {
     /// The key, as for `--set`.
+    #[serde(deserialize_with = "key::one")]
     pub key: String,
     /// Frames, ascending.
     pub frames: Vec<f64>,

@@ -5,6 +5,7 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::compose::{files, film};
+use super::faults::Faults;
 use super::part::Part;
 use super::picture::Picture;
 use super::plan::Split;
@@ -54,11 +55,12 @@ impl Status {
 /// **Errors:** records that are damaged or foreign.
 pub fn status(plan: &Plan, store: &Store) -> Result<Status, BatchError> {
     let mut status = Status { units: plan.units(), ..Status::default() };
+    let mut faults = Faults::default();
     let mut shards = std::collections::BTreeSet::new();
     for (place, picture) in plan.pictures.iter().enumerate() {
         let before = status.done;
         for unit in picture.first_unit..picture.first_unit + picture.units {
-            match store.record(unit)? {
+            match faults.note(store.record(unit))?.flatten() {
                 Some(record) => {
                     status.done += 1;
                     status.nan_samples += record.nan_samples;
@@ -71,7 +73,7 @@ pub fn status(plan: &Plan, store: &Store) -> Result<Status, BatchError> {
         }
     }
     status.shards_missing = shards.into_iter().collect();
-    Ok(status)
+    faults.told().map(|()| status)
 }
 
 /// Puts the units of all pictures together; with `partial` also of those that lack some. Gives the number of pictures
@@ -85,8 +87,14 @@ pub fn merge(plan: &Plan, folder: &Path, store: &Store, partial: bool) -> Result
         Split::Frames => whole(picture, store),
         Split::Tiles | Split::Samples => joined(plan, picture, store, &source, partial),
     };
-    let count = || plan.pictures.par_iter().map(|picture| there(picture).map(u64::from)).sum();
-    workers()?.install(count)
+    let count = |picture: &Picture| {
+        let mut faults = Faults::default();
+        faults.note(there(picture)).map(|there| (u64::from(there == Some(true)), faults))
+    };
+    let both = |(a, faults): (u64, Faults), (b, more)| Ok((a + b, faults.join(more)));
+    let all = || plan.pictures.par_iter().map(count).try_reduce(Default::default, both);
+    let (pictures, faults) = workers()?.install(all)?;
+    faults.told().map(|()| pictures)
 }
 
 /// Whether a picture that is one unit is there, as it was written.
