@@ -10,7 +10,7 @@ use super::part::Part;
 use super::picture::Picture;
 use super::plan::Split;
 use super::source::Source;
-use super::threads::workers;
+use super::threads::{default_threads, workers};
 use super::{BatchError, Plan, Store};
 use crate::load::KeptMeshes;
 
@@ -93,7 +93,7 @@ pub fn merge(plan: &Plan, folder: &Path, store: &Store, partial: bool) -> Result
     };
     let both = |(a, faults): (u64, Faults), (b, more)| Ok((a + b, faults.join(more)));
     let all = || plan.pictures.par_iter().map(count).try_reduce(Default::default, both);
-    let (pictures, faults) = workers()?.install(all)?;
+    let (pictures, faults) = workers(default_threads())?.install(all)?;
     faults.told().map(|()| pictures)
 }
 

@@ -11,7 +11,7 @@ use super::job::Job;
 use super::paths::relative;
 use super::picture::Picture;
 use super::source::{self, Source};
-use super::threads::workers;
+use super::threads::{default_threads, workers};
 use super::unit::{Cut, Unit};
 use super::{BatchError, Shard};
 use crate::film::AovSet;
@@ -96,7 +96,7 @@ impl Plan {
         let source = Source::read(&job.scene, &job.folder, meshes)?;
         let mut files = Files::default();
         files.see(source.scene());
-        let mut pictures = workers()?.install(|| pictures(job, &source, &mut files))?;
+        let mut pictures = workers(default_threads())?.install(|| pictures(job, &source, &mut files))?;
         let mut units = 0;
         for picture in &mut pictures {
             picture.first_unit = units;
