@@ -3,11 +3,15 @@
 mod common;
 
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
 use assert_cmd::Command;
+use octray::describe::builtin;
 use octray::film::Film;
 use octray::output::{Picture, read_file};
+use octray::scene::Scene;
+use octray::wavefront::{Goal, Progress, RenderError, RenderOptions};
 use serde_json::Value;
 
 /// Renders to a file of floats; gives the picture and the event `done`.
@@ -119,6 +123,30 @@ fn a_limit_too_short_for_one_sample_is_remarked() {
     let remark = "the time limit was over before each pixel had its first sample";
     assert!(told("1e-9").contains(remark));
     assert!(!told("1e9").contains(remark));
+}
+
+/// The first pass over a large picture may take long.
+#[test]
+fn a_cancelled_render_does_not_finish_its_first_pass() {
+    let scene = Scene::compile(&builtin("seed").unwrap().unwrap()).unwrap();
+    let (cancel, first, last) = (AtomicBool::new(false), AtomicU64::new(0), AtomicU64::new(0));
+    let progress = |progress: Progress| {
+        if !cancel.swap(true, Relaxed) {
+            first.store(progress.rays, Relaxed);
+        }
+        last.store(progress.rays, Relaxed);
+    };
+    let goal = Some(Goal { max_error: None, time_limit: Some(Duration::from_secs(3600)) });
+    let options = RenderOptions {
+        threads: 1,
+        progress: Some(&progress),
+        cancel: Some(&cancel),
+        goal,
+        ..RenderOptions::default()
+    };
+    assert!(matches!(octray::wavefront::render(&scene, &options), Err(RenderError::Cancelled)));
+    assert!(first.load(Relaxed) > 0);
+    assert_eq!(first.into_inner(), last.into_inner(), "no ray was traced after the first tile");
 }
 
 #[test]

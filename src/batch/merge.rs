@@ -9,6 +9,7 @@ use super::faults::Faults;
 use super::part::Part;
 use super::picture::Picture;
 use super::plan::Split;
+use super::record::Record;
 use super::source::Source;
 use super::threads::{default_threads, workers};
 use super::{BatchError, Plan, Store};
@@ -111,14 +112,7 @@ fn joined(
     source: &Source,
     partial: bool,
 ) -> Result<bool, BatchError> {
-    let mut records = Vec::new();
-    for unit in picture.first_unit..picture.first_unit + picture.units {
-        match store.record(unit)? {
-            Some(record) => records.push((unit, record)),
-            None if partial => {}
-            None => return Ok(false),
-        }
-    }
+    let records = records(picture, store, partial)?;
     if records.is_empty() {
         return Ok(false);
     }
@@ -137,6 +131,19 @@ fn joined(
         store.write(&store.resolve(&path), &bytes)?;
     }
     Ok(true)
+}
+
+/// The records of a picture's units: of all, or with `partial` of those that are done; else none.
+fn records(picture: &Picture, store: &Store, partial: bool) -> Result<Vec<(u64, Record)>, BatchError> {
+    let mut records = Vec::new();
+    for unit in picture.first_unit..picture.first_unit + picture.units {
+        match store.record(unit)? {
+            Some(record) => records.push((unit, record)),
+            None if partial => {}
+            None => return Ok(Vec::new()),
+        }
+    }
+    Ok(records)
 }
 
 #[cfg(test)]
