@@ -3,11 +3,15 @@
 mod common;
 
 use std::path::Path;
+use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
 use assert_cmd::Command;
+use octray::describe::builtin;
 use octray::film::Film;
 use octray::output::{Picture, read_file};
+use octray::scene::Scene;
+use octray::wavefront::{Goal, Progress, RenderError, RenderOptions};
 use serde_json::Value;
 
 /// Renders to a file of floats; gives the picture and the event `done`.
@@ -96,12 +100,53 @@ fn time_ends_a_render_with_a_whole_picture() {
     assert!(done["render_s"].as_f64().unwrap() >= 1.0, "all of the time is used: {done}");
     assert!(done["reached"]["samples_fewest"].as_u64().unwrap() >= 1);
     assert!(rmse(&film, &truth) < 0.2, "{done}");
+    assert_eq!(done["reached"]["first_sample_late"], false);
     let (film, done) = render(folder.path(), "seed --size 96x72 --time-limit 1e-9");
+    assert_eq!(done["reached"]["first_sample_late"], true, "the limit was not kept, and that is said");
     assert_eq!(
         (&done["reached"]["samples_fewest"], &done["reached"]["rmse_estimate"]),
         (&1.into(), &Value::Null)
     );
     assert!(rmse(&film, &truth) < 0.5, "no pixel is left out");
+}
+
+#[test]
+fn a_limit_too_short_for_one_sample_is_remarked() {
+    let folder = tempfile::tempdir().unwrap();
+    let told = |limit: &str| {
+        let mut command = Command::cargo_bin("octray").unwrap();
+        let args = ["render", "seed", "--size", "48x36", "--spp", "4", "-o", "a.png", "--time-limit", limit];
+        let output = command.current_dir(folder.path()).args(args).output().unwrap();
+        assert!(output.status.success());
+        String::from_utf8(output.stderr).unwrap()
+    };
+    let remark = "the time limit was over before each pixel had its first sample";
+    assert!(told("1e-9").contains(remark));
+    assert!(!told("1e9").contains(remark));
+}
+
+/// The first pass over a large picture may take long.
+#[test]
+fn a_cancelled_render_does_not_finish_its_first_pass() {
+    let scene = Scene::compile(&builtin("seed").unwrap().unwrap()).unwrap();
+    let (cancel, first, last) = (AtomicBool::new(false), AtomicU64::new(0), AtomicU64::new(0));
+    let progress = |progress: Progress| {
+        if !cancel.swap(true, Relaxed) {
+            first.store(progress.rays, Relaxed);
+        }
+        last.store(progress.rays, Relaxed);
+    };
+    let goal = Some(Goal { max_error: None, time_limit: Some(Duration::from_secs(3600)) });
+    let options = RenderOptions {
+        threads: 1,
+        progress: Some(&progress),
+        cancel: Some(&cancel),
+        goal,
+        ..RenderOptions::default()
+    };
+    assert!(matches!(octray::wavefront::render(&scene, &options), Err(RenderError::Cancelled)));
+    assert!(first.load(Relaxed) > 0);
+    assert_eq!(first.into_inner(), last.into_inner(), "no ray was traced after the first tile");
 }
 
 #[test]

@@ -114,7 +114,8 @@ fn bad_use_is_told_before_any_work() {
 const CHECK: &str = "<script>onload = () => {
     const sizes = [...document.images].map(image => image.naturalWidth + 'x' + image.naturalHeight);
     const count = (what) => document.querySelectorAll(what).length;
-    document.title = [sizes.join(' '), count('tbody tr'), count('svg circle')].join(';');
+    const fits = document.documentElement.scrollWidth <= innerWidth;
+    document.title = [sizes.join(' '), count('tbody tr'), count('svg circle'), innerWidth, fits].join(';');
 }</script></body>";
 
 /// What a browser makes of the page: all of it is there, without a network, and the pictures have pixels.
@@ -129,27 +130,39 @@ fn a_browser_shows_the_page() {
     let page = folder.path().join("page.html");
     assert!(!html.contains("src=\"http") && !html.contains("href="), "the page needs nothing else");
     fs::write(&page, html.replace("</body>", CHECK)).unwrap();
-    let dom = shown(browser, folder.path(), &page);
-    let title = dom.split("<title>").nth(1).and_then(|rest| rest.split("</title>").next()).unwrap();
-    let [images, rows, dots] = title.split(';').collect::<Vec<_>>()[..] else { panic!("{title}") };
-    assert!(images.split(' ').all(|size| size == "32x24") && images.split(' ').count() >= 5, "{title}");
-    assert_eq!(rows.parse::<usize>().unwrap(), report["rows"].as_array().unwrap().len(), "{title}");
-    assert!(
-        dots.parse::<usize>().unwrap() > 2 * rows.parse::<usize>().unwrap(),
-        "a dot a row in two plots: {title}"
-    );
+    let [images, rows, dots, ..] = &seen(browser, folder.path(), &page, 1200)[..] else { panic!("no title") };
+    assert!(images.split(' ').all(|size| size == "32x24") && images.split(' ').count() >= 5, "{images}");
+    let [rows, dots] = [rows, dots].map(|count| count.parse::<usize>().unwrap());
+    assert_eq!(rows, report["rows"].as_array().unwrap().len());
+    assert!(dots > 2 * rows, "{dots} dots, one a row in two plots");
+    for width in [1200, 800] {
+        let seen = seen(browser, folder.path(), &page, width);
+        assert_eq!(seen[3..], [width.to_string(), "true".into()], "the page is not wider than its window");
+    }
 }
 
 fn runs(browser: &str) -> bool {
     Plain::new(browser).arg("--version").output().is_ok_and(|output| output.status.success())
 }
 
+/// What [`CHECK`] saw in a window so wide.
+fn seen(browser: &str, folder: &Path, page: &Path, width: u32) -> Vec<String> {
+    let dom = shown(browser, folder, page, width);
+    let title = dom.split("<title>").nth(1).and_then(|rest| rest.split("</title>").next()).unwrap();
+    title.split(';').map(str::to_owned).collect()
+}
+
 /// The page's content after its scripts have run.
-fn shown(browser: &str, folder: &Path, page: &Path) -> String {
+fn shown(browser: &str, folder: &Path, page: &Path, width: u32) -> String {
+    let size = format!("--window-size={width},900");
     let profile = format!("--user-data-dir={}", folder.join("profile").display());
-    let flags =
-        ["--headless", "--no-sandbox", "--disable-gpu", &profile, "--virtual-time-budget=5000", "--dump-dom"];
-    let output = Plain::new(browser).args(flags).arg(format!("file://{}", page.display())).output().unwrap();
+    let flags = ["--headless", "--no-sandbox", "--disable-gpu", "--virtual-time-budget=5000", "--dump-dom"];
+    let output = Plain::new(browser)
+        .args(flags)
+        .args([profile, size])
+        .arg(format!("file://{}", page.display()))
+        .output()
+        .unwrap();
     assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
     String::from_utf8_lossy(&output.stdout).into_owned()
 }

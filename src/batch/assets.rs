@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use serde::{Deserialize, Serialize};
 
 use super::BatchError;
+use super::faults::{MOST_NAMED, first_lines};
 use crate::describe::{MeshSource, SceneDescription};
 use crate::load::material_files;
 
@@ -66,14 +67,14 @@ impl Files {
     }
 }
 
-/// Which assets are not what they were, in words.
+/// Which assets are not what they were, in words: the first ones of many.
 pub(super) fn changes(assets: &[Asset], folder: &Path) -> Vec<String> {
     let changed = |asset: &Asset| match read(&folder.join(&asset.path)) {
         Ok(bytes) if hash(&bytes) == asset.blake3 => None,
         Ok(_) => Some(format!("{} has changed since the plan was made", asset.path.display())),
         Err(error) => Some(error.told()),
     };
-    assets.iter().filter_map(changed).collect()
+    first_lines(MOST_NAMED, assets.iter().filter_map(changed))
 }
 
 fn is_obj(mesh: &Path) -> bool {

@@ -2,12 +2,38 @@
 
 use std::collections::BTreeMap;
 
+use schemars::JsonSchema;
+use serde::Deserialize;
 use toml::Value;
 
-use super::job::{Sweep, SweepMode};
+use crate::describe::exact;
 
 /// Most pictures of a job: what a plan of some hundred megabytes holds.
 pub(super) const MOST_PICTURES: usize = 1_000_000;
+
+/// The values of one axis of a sweep.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Sweep {
+    /// These.
+    List(#[schemars(with = "Vec<serde_json::Value>", length(min = 1))] Vec<Value>),
+    /// First and end, which is left out, and perhaps a step: as Python's `range`.
+    Range(#[schemars(with = "Vec<f64>", length(min = 2, max = 3))] Vec<Value>),
+    /// First, last and how many, evenly spread.
+    #[serde(deserialize_with = "exact::read")]
+    Linspace([f64; 3]),
+}
+
+/// How the axes of a sweep meet.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SweepMode {
+    /// Every value of one with every value of the others; the last axis changes fastest.
+    #[default]
+    Product,
+    /// The first values together, the second ones together; all axes are equally long.
+    Zip,
+}
 
 /// One picture's choice: a key and its value for each axis.
 pub(super) type Choice = Vec<(String, Value)>;

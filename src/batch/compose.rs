@@ -46,16 +46,17 @@ pub(super) fn film(size: [u32; 2], aovs: AovSet, parts: &[Part]) -> Film {
 }
 
 fn store(film: &mut Film, pixels: &[[u32; 2]], layers: &[Layer]) {
-    let samples = layers.iter().map(|layer| layer.samples).sum();
-    for (k, &[x, y]) in pixels.iter().enumerate() {
-        let at = y as usize * film.width as usize + x as usize;
+    let width = film.width as usize;
+    let places = || pixels.iter().map(|&[x, y]| y as usize * width + x as usize).enumerate();
+    for (k, at) in places() {
         film.pixels[at] = mean(sum(layers, (k, pixels.len())));
-        for layer in layers.iter().filter(|layer| !layer.sums.aovs.is_empty()) {
-            store_aovs(&mut film.planes, &layer.sums.aovs, (k, pixels.len()), at);
-        }
-        if let Some(PlaneValues::Uint(counts)) = sample_counts(&mut film.planes) {
-            counts[at] = samples;
-        }
+    }
+    for layer in layers.iter().filter(|layer| !layer.sums.aovs.is_empty()) {
+        places().for_each(|(k, at)| store_aovs(&mut film.planes, &layer.sums.aovs, (k, pixels.len()), at));
+    }
+    if let Some(PlaneValues::Uint(counts)) = sample_counts(&mut film.planes) {
+        let samples = layers.iter().map(|layer| layer.samples).sum();
+        places().for_each(|(_, at)| counts[at] = samples);
     }
 }
 

@@ -49,6 +49,9 @@ pub enum BatchError {
         /// What is wrong with it, and what to do.
         reason: String,
     },
+    /// Several such files, the first of them named.
+    #[error("{}", .0.join("\n"))]
+    ManyDamaged(Vec<String>),
     /// Something is not what it was when the plan was made or the work begun.
     #[error("{}", .0.join("\n"))]
     Changed(Vec<String>),

@@ -1,6 +1,5 @@
 //! A job to its pictures.
 
-use std::collections::HashMap;
 use std::path::Path;
 
 use rayon::prelude::*;
@@ -13,7 +12,7 @@ use super::pattern::{self, Names};
 use super::picture::{Picture, PictureFile};
 use super::source::Source;
 use super::whole::whole;
-use super::{BatchError, frames, seed};
+use super::{BatchError, distinct, frames, seed};
 use crate::output::Format;
 
 /// Pictures that are made at a time: enough for all threads, and a fault in the first of a million is told soon.
@@ -35,7 +34,7 @@ pub(super) fn pictures(job: &Job, source: &Source, files: &mut Files) -> Result<
             pictures.push(picture);
         }
     }
-    distinct(&pictures).map_err(BatchError::Job)?;
+    distinct::check(&pictures).map_err(BatchError::Job)?;
     Ok(pictures)
 }
 
@@ -154,10 +153,6 @@ fn title(names: &Names) -> String {
     if parts.is_empty() { "the picture".into() } else { parts.join(", ") }
 }
 
-fn job_has_twice(picture: &Picture, path: &str) -> bool {
-    picture.outputs.iter().filter(|file| file.path == path).count() > 1
-}
-
 /// No key has its values from two places, of which one would be for nothing.
 fn one_source(job: &Job) -> Result<(), String> {
     for (at, keyframes) in job.keyframes.iter().enumerate() {
@@ -170,32 +165,4 @@ fn one_source(job: &Job) -> Result<(), String> {
         }
     }
     Ok(())
-}
-
-/// The path of a file that a path has as a folder.
-fn file_above<'p>(path: &'p str, owner: &HashMap<String, &str>) -> Option<&'p str> {
-    path.match_indices('/').map(|(at, _)| &path[..at]).find(|folder| owner.contains_key(*folder))
-}
-
-/// No two pictures share a file, and none is the folder of another.
-fn distinct(pictures: &[Picture]) -> Result<(), String> {
-    let mut owner: HashMap<String, &str> = HashMap::new();
-    for picture in pictures {
-        for file in &picture.outputs {
-            if let Some(other) = owner.insert(file.path.clone(), &picture.name) {
-                let (path, name) = (&file.path, &picture.name);
-                if other == name && job_has_twice(picture, path) {
-                    return Err(format!("two [[output]] of the job are the same file `{path}`"));
-                }
-                return Err(format!(
-                    "output `{path}` would hold both {other} and {name}: name what differs in it, such as {{camera}}, {{sweep}} or {{key}}"
-                ));
-            }
-        }
-    }
-    let mut files = pictures.iter().flat_map(|picture| &picture.outputs);
-    match files.find_map(|file| file_above(&file.path, &owner).map(|above| (&file.path, above))) {
-        Some((path, above)) => Err(format!("output `{above}` would be a file, and the folder of `{path}`")),
-        None => Ok(()),
-    }
 }

@@ -8,8 +8,10 @@ use serde::Deserialize;
 use serde::de::{Deserializer, Error};
 use toml::Value;
 
-use super::BatchError;
-use crate::describe::{BuildQuality, Tier, exact};
+pub use super::axis::{Sweep, SweepMode};
+pub use super::keyframes::{Interpolation, Keyframes};
+use super::{BatchError, key};
+use crate::describe::{BuildQuality, Tier};
 use crate::film::Aov;
 
 /// A job, as written. Field names are the keys of the file.
@@ -37,11 +39,11 @@ pub struct Job {
     /// Frames, such as `1-100` or `1,3,5..9`; one picture without a number if not given.
     pub frames: Option<String>,
     /// Values in place of the scene's, by key as for `--set`.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "key::map")]
     #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub set: BTreeMap<String, Value>,
     /// Values that change from picture to picture, by key as for `--set`.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "key::map")]
     pub sweep: BTreeMap<String, Sweep>,
     /// Whether every value meets every other one, or each only its fellows of the same place.
     #[serde(default)]
@@ -74,30 +76,6 @@ pub enum SeedMode {
     PerPicture,
 }
 
-/// The values of one axis of a sweep.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Sweep {
-    /// These.
-    List(#[schemars(with = "Vec<serde_json::Value>", length(min = 1))] Vec<Value>),
-    /// First and end, which is left out, and perhaps a step: as Python's `range`.
-    Range(#[schemars(with = "Vec<f64>", length(min = 2, max = 3))] Vec<Value>),
-    /// First, last and how many, evenly spread.
-    #[serde(deserialize_with = "exact::read")]
-    Linspace([f64; 3]),
-}
-
-/// How the axes of a sweep meet.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum SweepMode {
-    /// Every value of one with every value of the others; the last axis changes fastest.
-    #[default]
-    Product,
-    /// The first values together, the second ones together; all axes are equally long.
-    Zip,
-}
-
 /// One camera.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
@@ -105,36 +83,9 @@ pub struct JobCamera {
     /// Its name, for `{camera}` in paths.
     pub name: String,
     /// Values in place of the scene's camera, by the camera's keys.
-    #[serde(default)]
+    #[serde(default, deserialize_with = "key::map")]
     #[schemars(with = "BTreeMap<String, serde_json::Value>")]
     pub set: BTreeMap<String, Value>,
-}
-
-/// Values of one key at some frames.
-#[derive(Clone, Debug, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields)]
-pub struct Keyframes {
-    /// The key, as for `--set`.
-    pub key: String,
-    /// Frames, ascending.
-    pub frames: Vec<f64>,
-    /// A number or an array of numbers for each.
-    #[schemars(with = "Vec<NumberOrNumbers>")]
-    pub values: Vec<Value>,
-    /// What lies between.
-    #[serde(default)]
-    pub interpolation: Interpolation,
-}
-
-/// How values between keyframes are found. Before the first and after the last keyframe its value holds.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
-#[serde(rename_all = "snake_case")]
-pub enum Interpolation {
-    /// Straight lines.
-    #[default]
-    Linear,
-    /// Smooth curves through all values.
-    CatmullRom,
 }
 
 /// One file of each picture.
@@ -148,15 +99,6 @@ pub struct Output {
     pub aovs: Vec<Aov>,
     /// Write the camera's numbers beside it. Default: where there are AOVs.
     pub camera_json: Option<bool>,
-}
-
-/// A value of a keyframe, for the schema.
-#[derive(JsonSchema)]
-#[serde(untagged)]
-#[expect(dead_code, reason = "only its schema is used")]
-enum NumberOrNumbers {
-    Number(f64),
-    Numbers(Vec<f64>),
 }
 
 /// The JSON Schema of job files.

@@ -1,9 +1,48 @@
 //! Values between keyframes.
 
+use schemars::JsonSchema;
+use serde::Deserialize;
 use toml::Value;
 
-use super::job::{Interpolation, Keyframes};
+use super::key;
 use super::whole::whole;
+
+/// Values of one key at some frames.
+#[derive(Clone, Debug, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub struct Keyframes {
+    /// The key, as for `--set`.
+    #[serde(deserialize_with = "key::one")]
+    pub key: String,
+    /// Frames, ascending.
+    pub frames: Vec<f64>,
+    /// A number or an array of numbers for each.
+    #[schemars(with = "Vec<NumberOrNumbers>")]
+    pub values: Vec<Value>,
+    /// What lies between.
+    #[serde(default)]
+    pub interpolation: Interpolation,
+}
+
+/// How values between keyframes are found. Before the first and after the last keyframe its value holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Interpolation {
+    /// Straight lines.
+    #[default]
+    Linear,
+    /// Smooth curves through all values.
+    CatmullRom,
+}
+
+/// A value of a keyframe, for the schema.
+#[derive(JsonSchema)]
+#[serde(untagged)]
+#[expect(dead_code, reason = "only its schema is used")]
+enum NumberOrNumbers {
+    Number(f64),
+    Numbers(Vec<f64>),
+}
 
 /// A track of numbers over frames.
 pub(super) struct Track<'a> {

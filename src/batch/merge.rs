@@ -5,11 +5,13 @@ use std::path::Path;
 use rayon::prelude::*;
 
 use super::compose::{files, film};
+use super::faults::Faults;
 use super::part::Part;
 use super::picture::Picture;
 use super::plan::Split;
+use super::record::Record;
 use super::source::Source;
-use super::threads::workers;
+use super::threads::{default_threads, workers};
 use super::{BatchError, Plan, Store};
 use crate::load::KeptMeshes;
 
@@ -54,11 +56,12 @@ impl Status {
 /// **Errors:** records that are damaged or foreign.
 pub fn status(plan: &Plan, store: &Store) -> Result<Status, BatchError> {
     let mut status = Status { units: plan.units(), ..Status::default() };
+    let mut faults = Faults::default();
     let mut shards = std::collections::BTreeSet::new();
     for (place, picture) in plan.pictures.iter().enumerate() {
         let before = status.done;
         for unit in picture.first_unit..picture.first_unit + picture.units {
-            match store.record(unit)? {
+            match faults.note(store.record(unit))?.flatten() {
                 Some(record) => {
                     status.done += 1;
                     status.nan_samples += record.nan_samples;
@@ -71,7 +74,7 @@ pub fn status(plan: &Plan, store: &Store) -> Result<Status, BatchError> {
         }
     }
     status.shards_missing = shards.into_iter().collect();
-    Ok(status)
+    faults.told().map(|()| status)
 }
 
 /// Puts the units of all pictures together; with `partial` also of those that lack some. Gives the number of pictures
@@ -85,8 +88,14 @@ pub fn merge(plan: &Plan, folder: &Path, store: &Store, partial: bool) -> Result
         Split::Frames => whole(picture, store),
         Split::Tiles | Split::Samples => joined(plan, picture, store, &source, partial),
     };
-    let count = || plan.pictures.par_iter().map(|picture| there(picture).map(u64::from)).sum();
-    workers()?.install(count)
+    let count = |picture: &Picture| {
+        let mut faults = Faults::default();
+        faults.note(there(picture)).map(|there| (u64::from(there == Some(true)), faults))
+    };
+    let both = |(a, faults): (u64, Faults), (b, more)| Ok((a + b, faults.join(more)));
+    let all = || plan.pictures.par_iter().map(count).try_reduce(Default::default, both);
+    let (pictures, faults) = workers(default_threads())?.install(all)?;
+    faults.told().map(|()| pictures)
 }
 
 /// Whether a picture that is one unit is there, as it was written.
@@ -103,14 +112,7 @@ fn joined(
     source: &Source,
     partial: bool,
 ) -> Result<bool, BatchError> {
-    let mut records = Vec::new();
-    for unit in picture.first_unit..picture.first_unit + picture.units {
-        match store.record(unit)? {
-            Some(record) => records.push((unit, record)),
-            None if partial => {}
-            None => return Ok(false),
-        }
-    }
+    let records = records(picture, store, partial)?;
     if records.is_empty() {
         return Ok(false);
     }
@@ -129,6 +131,19 @@ fn joined(
         store.write(&store.resolve(&path), &bytes)?;
     }
     Ok(true)
+}
+
+/// The records of a picture's units: of all, or with `partial` of those that are done; else none.
+fn records(picture: &Picture, store: &Store, partial: bool) -> Result<Vec<(u64, Record)>, BatchError> {
+    let mut records = Vec::new();
+    for unit in picture.first_unit..picture.first_unit + picture.units {
+        match store.record(unit)? {
+            Some(record) => records.push((unit, record)),
+            None if partial => {}
+            None => return Ok(Vec::new()),
+        }
+    }
+    Ok(records)
 }
 
 #[cfg(test)]

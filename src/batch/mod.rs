@@ -12,11 +12,14 @@
 mod assets;
 mod axis;
 mod compose;
+mod distinct;
 pub mod emit;
 mod error;
 mod expand;
+mod faults;
 mod frames;
 pub mod job;
+mod key;
 mod keyframes;
 pub mod merge;
 mod neighbours;
@@ -37,6 +40,7 @@ mod unit;
 mod whole;
 
 pub use error::BatchError;
+pub(crate) use faults::first_lines;
 pub use job::Job;
 pub use plan::{Plan, Split};
 pub use shard::Shard;

@@ -2,6 +2,8 @@
 
 use std::path::{Component, Path};
 
+use super::store::STATE_ENDING;
+
 /// What stands for what in one picture's paths.
 pub(super) struct Names<'a> {
     /// `{name}`: the job.
@@ -31,7 +33,19 @@ pub(super) fn path(pattern: &str, names: &Names) -> Result<String, String> {
             path.escape_debug()
         ));
     }
-    Ok(plain(&path))
+    let path = plain(&path);
+    match state_above(&path) {
+        Some(folder) => {
+            Err(format!("output `{path}` must not lie in `{folder}`: such folders hold the state of batches"))
+        }
+        None => Ok(path),
+    }
+}
+
+/// The folder of a path, if any, that a batch may keep its state in: `NAME.octray`, in any case of letters.
+fn state_above(path: &str) -> Option<&str> {
+    let (folders, _) = path.rsplit_once('/')?;
+    folders.split('/').find(|folder| folder.to_lowercase().ends_with(STATE_ENDING))
 }
 
 /// The path without `.` and doubled separators: one spelling for one file.
@@ -39,8 +53,12 @@ fn plain(path: &str) -> String {
     path.split('/').filter(|part| !matches!(*part, "" | ".")).collect::<Vec<_>>().join("/")
 }
 
-/// Whether a path stays in the folder that it starts from.
-pub(super) fn is_below(path: &str) -> bool {
+/// Whether a path stays in the folder that it starts from, and out of the state of batches.
+pub(super) fn is_free(path: &str) -> bool {
+    is_below(path) && state_above(path).is_none()
+}
+
+fn is_below(path: &str) -> bool {
     let plain = |part: Component| matches!(part, Component::Normal(_) | Component::CurDir);
     !path.is_empty() && !path.contains('\0') && Path::new(path).components().all(plain)
 }

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::pattern::is_below;
+use super::pattern::is_free;
 use crate::film::Aov;
 
 /// One picture: a scene with changes, and the files it becomes.
@@ -38,9 +38,9 @@ pub struct PictureFile {
 }
 
 impl Picture {
-    /// Whether all its files lie below the output folder.
+    /// Whether all its files lie below the output folder, and none among the state of batches.
     pub(super) fn has_good_paths(&self) -> bool {
-        self.outputs.iter().all(|file| is_below(&file.path))
+        self.outputs.iter().all(|file| is_free(&file.path))
     }
 
     /// Camera samples in all.

@@ -6,11 +6,12 @@ use serde::{Deserialize, Serialize};
 
 use super::assets::{Asset, Files, changes, hash};
 use super::expand::pictures;
+use super::faults::{MOST_NAMED, first_lines};
 use super::job::Job;
 use super::paths::relative;
 use super::picture::Picture;
 use super::source::{self, Source};
-use super::threads::workers;
+use super::threads::{default_threads, workers};
 use super::unit::{Cut, Unit};
 use super::{BatchError, Shard};
 use crate::film::AovSet;
@@ -95,7 +96,7 @@ impl Plan {
         let source = Source::read(&job.scene, &job.folder, meshes)?;
         let mut files = Files::default();
         files.see(source.scene());
-        let mut pictures = workers()?.install(|| pictures(job, &source, &mut files))?;
+        let mut pictures = workers(default_threads())?.install(|| pictures(job, &source, &mut files))?;
         let mut units = 0;
         for picture in &mut pictures {
             picture.first_unit = units;
@@ -211,8 +212,13 @@ impl Plan {
     pub fn check_sources(&self, folder: &Path) -> Result<(), BatchError> {
         let root = folder.join(&self.root);
         let mut changed = changes(&self.assets, &root);
-        if hash(&source::bytes(&self.scene, &root)?) != self.scene_blake3 {
-            changed.insert(0, format!("the scene {} has changed since the plan was made", self.scene));
+        match source::bytes(&self.scene, &root) {
+            Ok(bytes) if hash(&bytes) == self.scene_blake3 => {}
+            Ok(_) => {
+                changed.insert(0, format!("the scene {} has changed since the plan was made", self.scene))
+            }
+            Err(error) if changed.is_empty() => return Err(error),
+            Err(error) => changed.insert(0, error.told()),
         }
         if changed.is_empty() { Ok(()) } else { Err(BatchError::Changed(changed)) }
     }
@@ -234,9 +240,9 @@ impl Plan {
         if self.scene == begun.scene && self.scene_blake3 != begun.scene_blake3 {
             found.push(format!("the scene {} has changed", self.scene));
         }
-        for asset in self.assets.iter().filter(|asset| !begun.assets.contains(asset)) {
-            found.push(format!("{} has changed", asset.path.display()));
-        }
+        let changed = self.assets.iter().filter(|asset| !begun.assets.contains(asset));
+        let changed = changed.map(|asset| format!("{} has changed", asset.path.display()));
+        found.extend(first_lines(MOST_NAMED, changed));
         let pair = self.pictures.iter().zip(&begun.pictures).find(|(is, was)| is != was);
         if let Some((is, was)) = pair.filter(|_| found.is_empty()) {
             found.push(picture_difference(is, was));

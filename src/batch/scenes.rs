@@ -5,10 +5,10 @@ use std::sync::{Arc, Mutex, MutexGuard, OnceLock};
 use super::BatchError;
 use super::assets::hash;
 use super::source::Source;
+use super::threads::workers;
 use crate::describe::{Camera, Lights, Render, SceneDescription};
 use crate::load::KeptMeshes;
 use crate::scene::Scene;
-use crate::wavefront::RenderError;
 
 /// A scene that is or will be compiled; a failure is kept too, so that it is met once.
 type Slot = Arc<OnceLock<Result<Arc<Scene>, String>>>;
@@ -44,9 +44,7 @@ impl<'a> Scenes<'a> {
         max_bytes: u64,
         meshes: &'a KeptMeshes,
     ) -> Result<Self, BatchError> {
-        let workers =
-            rayon::ThreadPoolBuilder::new().num_threads(threads).build().map_err(RenderError::from)?;
-        Ok(Self { source, common, workers, max_bytes, meshes, kept: Mutex::default() })
+        Ok(Self { source, common, workers: workers(threads)?, max_bytes, meshes, kept: Mutex::default() })
     }
 
     /// The scene of a picture with these changes; `taken` bytes of the memory are other things'.

@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use super::BatchError;
-use crate::describe::{self, SceneDescription};
+use crate::describe::{self, Amendable, SceneDescription};
 use crate::load::KeptMeshes;
 use crate::scene::Scene;
 
@@ -13,7 +13,7 @@ const MESHES: [&str; 3] = ["obj", "ply", "stl"];
 /// A scene before the changes that pictures make to it.
 pub(super) struct Source {
     name: String,
-    scene: SceneDescription,
+    scene: Amendable,
     /// The scene file, mesh, or the built-in scene written out.
     pub(super) bytes: Vec<u8>,
 }
@@ -33,12 +33,12 @@ impl Source {
             _ if is_mesh(&path) => framed(&path, meshes)?,
             _ => describe::read(&path)?,
         };
-        Ok(Self { name: name.to_owned(), scene, bytes })
+        Ok(Self { name: name.to_owned(), scene: Amendable::new(scene), bytes })
     }
 
     /// The scene of one picture.
     pub(super) fn with(&self, sets: &[String]) -> Result<SceneDescription, describe::DescribeError> {
-        self.scene.clone().amended(&self.name, sets)
+        self.scene.amended(&self.name, sets)
     }
 
     /// Camera and settings of one picture, without its objects: nothing is loaded or built.
@@ -51,7 +51,7 @@ impl Source {
 
     /// The scene as written.
     pub(super) fn scene(&self) -> &SceneDescription {
-        &self.scene
+        self.scene.scene()
     }
 }
 

@@ -14,6 +14,9 @@ use super::record::{Kept, Record};
 use super::{BatchError, Plan};
 use crate::output::{OutputError, write_atomically};
 
+/// How the names of folders end that hold the state of a batch.
+pub(super) const STATE_ENDING: &str = ".octray";
+
 const ANEW: &str = "delete it, or begin anew with --force";
 
 /// The state of a batch in an output folder.
@@ -53,7 +56,7 @@ impl Store {
     }
 
     fn at(output: &Path, plan: &Plan) -> Self {
-        let folder = output.join(format!("{}.octray", plan.name));
+        let folder = output.join(format!("{}{STATE_ENDING}", plan.name));
         Self { output: output.to_owned(), folder, plan: plan.identity() }
     }
 

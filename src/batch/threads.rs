@@ -9,9 +9,9 @@ pub fn default_threads() -> usize {
     limited(allowed, std::env::var("SLURM_CPUS_PER_TASK").ok().as_deref())
 }
 
-/// A pool of that many.
-pub(super) fn workers() -> Result<rayon::ThreadPool, BatchError> {
-    let workers = rayon::ThreadPoolBuilder::new().num_threads(default_threads()).build();
+/// A pool of so many.
+pub(super) fn workers(threads: usize) -> Result<rayon::ThreadPool, BatchError> {
+    let workers = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
     Ok(workers.map_err(RenderError::from)?)
 }
 

@@ -212,14 +212,7 @@ fn failed_event(error: &CliError) -> Value {
 mod tests {
     use super::*;
     use crate::cli::Exit;
-
-    fn seconds(count: f64) -> Duration {
-        Duration::from_secs_f64(count)
-    }
-
-    fn progress(pixels_done: u64, pixels_total: u64) -> Progress {
-        Progress { pixels_done, pixels_total, rays: 2_000_000 }
-    }
+    use crate::cli::rhythm::tests::{progress, seconds};
 
     #[test]
     fn modes_choose_their_style() {

@@ -61,14 +61,14 @@ pub(super) fn time_left(progress: &Progress, elapsed: Duration) -> Option<Durati
 }
 
 #[cfg(test)]
-mod tests {
+pub(super) mod tests {
     use super::*;
 
-    fn seconds(count: f64) -> Duration {
+    pub(in crate::cli) fn seconds(count: f64) -> Duration {
         Duration::from_secs_f64(count)
     }
 
-    fn progress(pixels_done: u64, pixels_total: u64) -> Progress {
+    pub(in crate::cli) fn progress(pixels_done: u64, pixels_total: u64) -> Progress {
         Progress { pixels_done, pixels_total, rays: 2_000_000 }
     }
 

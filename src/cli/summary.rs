@@ -58,6 +58,7 @@ impl Ending for Summary {
                 "pixels_above": reached.pixels_above,
                 "samples_fewest": reached.samples[0],
                 "samples_most": reached.samples[1],
+                "first_sample_late": reached.first_sample_late,
             })),
             "nan_samples": report.nan_samples,
             "nan_values_written_as_zero": self.written.nan_values,
@@ -139,7 +140,11 @@ fn told(reached: &Reached, pixels: u64) -> String {
     };
     let of_limit = |above| format!(", {} pixels within the limit", human::count(pixels - above));
     let pixels = reached.pixels_above.map_or(String::new(), of_limit);
-    format!("estimated rmse {error}, {samples} samples a pixel{pixels}")
+    let late = match reached.first_sample_late {
+        true => "; the time limit was over before each pixel had its first sample",
+        false => "",
+    };
+    format!("estimated rmse {error}, {samples} samples a pixel{pixels}{late}")
 }
 
 #[cfg(test)]
@@ -190,17 +195,19 @@ mod tests {
 
     #[test]
     fn a_goal_says_how_near_it_was_reached() {
-        let reached =
-            |rmse_estimate, samples| Some(Reached { rmse_estimate, pixels_above: Some(7_200), samples });
+        let reached = |rmse_estimate, samples, first_sample_late| {
+            Some(Reached { rmse_estimate, pixels_above: Some(7_200), samples, first_sample_late })
+        };
         let mut summary = summary();
-        summary.report.reached = reached(0.0123, [16, 384]);
+        summary.report.reached = reached(0.0123, [16, 384], false);
         let text = summary.to_string();
         assert!(
             text.contains("estimated rmse 1.23e-2, 16 to 384 samples a pixel, 300 k pixels within"),
             "{text}"
         );
+        assert!(!text.contains("limit was over"), "{text}");
         assert_eq!(summary.to_json()["reached"]["samples_most"], 384);
-        summary.report.reached = reached(f64::INFINITY, [1, 1]);
+        summary.report.reached = reached(f64::INFINITY, [1, 1], true);
         assert!(summary.to_string().contains("estimated rmse unknown, 1 samples a pixel"), "{summary}");
         assert_eq!(summary.to_json()["reached"]["rmse_estimate"], Value::Null);
     }

@@ -1,43 +1,68 @@
 //! `--set` on scenes that are no text: built-in ones, and those framed around a mesh.
 
+use std::sync::OnceLock;
+
 use super::{DescribeError, SceneDescription, parse_with};
 
 /// Sections without objects: changing them alone needs no look at the objects, of which there may be many.
 const SETTINGS: [&str; 5] = ["camera", "render", "background", "light", "material"];
+
+/// A scene that is to be changed, perhaps many times: it is written out as text only once.
+pub struct Amendable {
+    scene: SceneDescription,
+    settings: OnceLock<String>,
+    whole: OnceLock<String>,
+}
+
+impl Amendable {
+    /// The scene before any change.
+    pub fn new(scene: SceneDescription) -> Self {
+        Self { scene, settings: OnceLock::new(), whole: OnceLock::new() }
+    }
+
+    /// The scene before any change.
+    pub fn scene(&self) -> &SceneDescription {
+        &self.scene
+    }
+
+    /// The scene after changes, as [`SceneDescription::amended`].
+    ///
+    /// # Errors
+    /// [`DescribeError::Invalid`], with the place in the scene written out as text or in the change.
+    pub fn amended(&self, name: &str, sets: &[String]) -> Result<SceneDescription, DescribeError> {
+        if sets.is_empty() {
+            return Ok(self.scene.clone());
+        }
+        if !sets.iter().all(|set| only_settings(set)) {
+            let text = self.whole.get_or_init(|| self.scene.to_toml());
+            let folder = self.scene.folder.clone();
+            return Ok(SceneDescription { folder, ..parse_with(text, name, sets)? });
+        }
+        let text = self.settings.get_or_init(|| self.scene.only_settings().to_toml());
+        let SceneDescription { camera, render, background, light, material, .. } =
+            parse_with(text, name, sets)?;
+        Ok(SceneDescription { camera, render, background, light, material, ..self.scene.clone() })
+    }
+}
 
 impl SceneDescription {
     /// The scene after changes, each `key=value` as for [`parse_with`]; `name` stands for the file in errors.
     ///
     /// # Errors
     /// [`DescribeError::Invalid`], with the place in the scene written out as text or in the change.
-    pub fn amended(mut self, name: &str, sets: &[String]) -> Result<SceneDescription, DescribeError> {
-        if sets.is_empty() {
-            return Ok(self);
-        }
-        let aside = sets.iter().all(|set| only_settings(set)).then(|| self.take_objects());
-        let mut amended = parse_with(&self.to_toml(), name, sets)?;
-        amended.folder = self.folder;
-        if let Some(mut objects) = aside {
-            std::mem::swap(&mut amended.camera, &mut objects.camera);
-            std::mem::swap(&mut amended.render, &mut objects.render);
-            std::mem::swap(&mut amended.background, &mut objects.background);
-            std::mem::swap(&mut amended.light, &mut objects.light);
-            std::mem::swap(&mut amended.material, &mut objects.material);
-            objects.folder = amended.folder;
-            return Ok(objects);
-        }
-        Ok(amended)
+    pub fn amended(self, name: &str, sets: &[String]) -> Result<SceneDescription, DescribeError> {
+        if sets.is_empty() { Ok(self) } else { Amendable::new(self).amended(name, sets) }
     }
 
-    /// Everything but settings, leaving a scene of settings alone.
-    fn take_objects(&mut self) -> SceneDescription {
-        let mut settings = SceneDescription::new(self.camera.clone());
-        settings.render = self.render.clone();
-        settings.background = self.background.clone();
-        settings.light = self.light.clone();
-        settings.material = self.material.clone();
-        settings.folder = self.folder.clone();
-        std::mem::replace(self, settings)
+    /// The same without objects.
+    fn only_settings(&self) -> Self {
+        Self {
+            render: self.render.clone(),
+            background: self.background.clone(),
+            light: self.light.clone(),
+            material: self.material.clone(),
+            ..Self::new(self.camera.clone())
+        }
     }
 }
 

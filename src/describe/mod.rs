@@ -46,6 +46,7 @@ mod shape;
 mod transform;
 mod write;
 
+pub use amend::Amendable;
 pub use background::Background;
 pub use builtin::{BuiltinScene, builtin, builtin_scenes};
 pub use camera::{Camera, CameraKind, Handedness};

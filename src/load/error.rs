@@ -1,7 +1,7 @@
 //! What can be wrong with a mesh or texture file.
 
 use std::fmt;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Why there is no mesh or texture.
 #[derive(Debug, thiserror::Error)]
@@ -91,6 +91,13 @@ pub enum LoadError {
         /// What is wrong with it.
         message: String,
     },
+}
+
+impl LoadError {
+    /// The content of a file makes no sense, in a line where that is known.
+    pub(super) fn malformed(path: &Path, line: Option<usize>, message: impl Into<String>) -> Self {
+        Self::Malformed { path: path.to_owned(), line, message: message.into() }
+    }
 }
 
 /// A line number after a colon, or nothing.

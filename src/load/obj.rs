@@ -13,9 +13,7 @@ use std::path::Path;
 
 /// The mesh in an OBJ file, with the materials of its MTL files unless `options` leave them out.
 pub(super) fn parse(path: &Path, bytes: &[u8], options: LoadOptions) -> Result<Mesh, LoadError> {
-    let malformed =
-        |(line, message)| LoadError::Malformed { path: path.to_owned(), line: Some(line), message };
-    let text = read(bytes).map_err(malformed)?;
+    let text = read(bytes).map_err(|(line, message)| LoadError::malformed(path, Some(line), message))?;
     let libraries = if options.materials { mtl::load_all(path, &text)? } else { Vec::new() };
     let mut mesh = Mesh::default();
     mesh.report.degenerate = text.thin_faces;
@@ -156,7 +154,7 @@ fn first_of(mesh: &Mesh, added: &[[u32; 3]], path: &Path) -> Result<u32, LoadErr
     let message = || format!("has {total} different corners: at most 2^32 - 1 can be numbered");
     match u32::try_from(total) {
         Ok(_) => Ok(first as u32),
-        Err(_) => Err(LoadError::Malformed { path: path.to_owned(), line: None, message: message() }),
+        Err(_) => Err(LoadError::malformed(path, None, message())),
     }
 }
 

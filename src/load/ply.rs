@@ -53,7 +53,7 @@ fn malformed(path: &Path, line: Option<usize>, message: &str) -> LoadError {
     let message = message.split_once(": ").filter(|_| line.is_some()).map_or(message, |(_, rest)| rest);
     let shown: Vec<&str> = message.split_whitespace().collect();
     let shown: String = shown.join(" ").chars().take(300).collect();
-    LoadError::Malformed { path: path.to_owned(), line, message: shown }
+    LoadError::malformed(path, line, shown)
 }
 
 fn check_vertex(header: &Header, path: &Path) -> Result<(), LoadError> {

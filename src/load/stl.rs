@@ -13,7 +13,7 @@ const RECORD: usize = 50;
 /// The mesh in an STL file. Corners at the same place become one vertex; facet normals are left, as they follow from
 /// the corners.
 pub(super) fn parse(path: &Path, mut bytes: Vec<u8>) -> Result<Mesh, LoadError> {
-    let malformed = |message| LoadError::Malformed { path: path.to_owned(), line: None, message };
+    let malformed = |message: String| LoadError::malformed(path, None, message);
     if let Some(count) = binary_count(&bytes) {
         let room = (bytes.len() - HEAD) / RECORD;
         if room < count {

@@ -33,6 +33,8 @@ pub struct Reached {
     pub pixels_above: Option<u64>,
     /// Samples of the pixels that have fewest and most.
     pub samples: [u32; 2],
+    /// Whether the time limit was over before each pixel had its first sample, which it got all the same.
+    pub first_sample_late: bool,
 }
 
 /// Renders the part of the picture that is asked for, until the goal is reached or the render cancelled.
@@ -44,11 +46,10 @@ pub(super) fn render<T: Tier>(frame: &Frame, shared: &Shared, goal: Goal, start:
         start,
         spp: frame.scene.settings.spp,
     };
-    let tallies = match limits.deadline {
-        None => tile_by_tile::<T>(frame, shared, &limits),
+    match limits.deadline {
+        None => reached(&tile_by_tile::<T>(frame, shared, &limits), &limits, false),
         Some(_) => round_by_round::<T>(frame, shared, &limits),
-    };
-    reached(&tallies, &limits)
+    }
 }
 
 /// Finishes a tile before the next: what is kept of each is small.
@@ -64,26 +65,29 @@ fn tile_by_tile<T: Tier>(frame: &Frame, shared: &Shared, limits: &Limits) -> Vec
 }
 
 /// Goes over the whole picture again and again.
-fn round_by_round<T: Tier>(frame: &Frame, shared: &Shared, limits: &Limits) -> Vec<TileTally> {
+fn round_by_round<T: Tier>(frame: &Frame, shared: &Shared, limits: &Limits) -> Reached {
     let mut states: Vec<TileState> = shared.tiles.iter().copied().map(TileState::new).collect();
     let stop = || shared.is_cancelled() || limits.is_late();
     let round = |waves: &mut WaveRunner<T>, state: &mut TileState| {
-        let more = state.round(waves, limits, &stop);
+        let more = !shared.is_cancelled() && state.round(waves, limits, &stop);
         let rays = shared.count(waves.take_counts());
         shared.say((limits.share_of_time() * shared.pixels_total() as f64) as u64, rays);
         more
     };
-    let mut more = true;
-    while more && !shared.is_cancelled() {
+    let mut next_round = || {
         let rounds = states.par_iter_mut().map_init(|| WaveRunner::new(frame), round);
-        more = rounds.reduce(|| false, |a, b| a | b) && !stop();
-    }
+        rounds.reduce(|| false, |a, b| a | b) && !stop()
+    };
+    let more = next_round();
+    let first_sample_late = limits.is_late();
+    while more && next_round() {}
     let finish = |waves: &mut WaveRunner<T>, state: TileState| state.finish(waves, shared, limits);
-    states.into_par_iter().map_init(|| WaveRunner::new(frame), finish).collect()
+    let tallies: Vec<_> = states.into_par_iter().map_init(|| WaveRunner::new(frame), finish).collect();
+    reached(&tallies, limits, first_sample_late)
 }
 
 /// In the order of tiles, so that the sum is the same in any order of threads.
-fn reached(tallies: &[TileTally], limits: &Limits) -> Reached {
+fn reached(tallies: &[TileTally], limits: &Limits, first_sample_late: bool) -> Reached {
     let pixels: u64 = tallies.iter().map(|tally| tally.pixels).sum();
     let variance: f64 = tallies.iter().map(|tally| tally.variance).sum();
     let fewest = tallies.iter().map(|tally| tally.samples[0]).min().unwrap_or(0);
@@ -92,5 +96,6 @@ fn reached(tallies: &[TileTally], limits: &Limits) -> Reached {
         rmse_estimate: (variance / pixels.max(1) as f64).sqrt(),
         pixels_above: limits.max_error.map(|_| tallies.iter().map(|tally| tally.pixels_above).sum()),
         samples: [fewest, most],
+        first_sample_late,
     }
 }

@@ -41,6 +41,8 @@ fn bad_jobs_name_the_file_the_line_and_what_was_expected() {
     for (path, aovs, words) in [
         ("../a.png", "", "below the output folder"),
         ("/a.png", "", "below the output folder"),
+        ("turn.octray/a.png", "", "state of batches"),
+        ("b/Other.OCTRAY/c/a.png", "", "must not lie in `Other.OCTRAY`"),
         ("a.jpg", "", "exr"),
         ("a.png", "aovs = [\"depth\"]\n", "exr"),
         ("{cam}.png", "", "{name}"),
@@ -56,6 +58,43 @@ fn two_outputs_are_not_one_file() {
     let job = "scene = \"seed\"\n[[output]]\npath = \"a/b.png\"\n[[output]]\npath = \"./a//b.png\"\n";
     let folder = folder(job);
     fails(folder.path(), "plan turn.toml", 3, &["two [[output]] of the job are the same file `a/b.png`"]);
+}
+
+/// Where capitals are not told from small letters, the second would replace the first.
+#[test]
+fn two_outputs_differ_in_more_than_capital_letters() {
+    let output = |path: &str| format!("[[output]]\npath = \"{path}\"\n");
+    for (paths, words) in [
+        (["a/B.png", "A/b.png"], ["`a/B.png` of the picture", "`A/b.png`", "capital letters"]),
+        (["\u{c4}.png", "\u{e4}.png"], ["`\u{c4}.png`", "`\u{e4}.png`", "one file"]),
+        (["A.png", "a.png/b.png"], ["`A.png` would be a file", "the folder of", "`a.png/b.png`"]),
+    ] {
+        let job = paths.map(output).concat();
+        let folder = folder(&format!("scene = \"seed\"\n{job}"));
+        fails(folder.path(), "plan turn.toml", 3, &words);
+    }
+}
+
+/// One key in two spellings would be set twice, and one of its values be for nothing.
+#[test]
+fn keys_have_one_spelling() {
+    let output = "[[output]]\npath = \"{sweep}.#.png\"\n";
+    let keyframes = "frames = \"1\"\n[[keyframes]]\nframes = [1]\nvalues = [40]\nkey = ";
+    for (job, words) in [
+        (
+            "[sweep]\n\"camera.fov_deg\" = { list = [30, 40] }\n\" camera.fov_deg\" = { list = [50] }\n",
+            ["turn.toml:4", "blanks in the key ` camera.fov_deg`"],
+        ),
+        ("[set]\n\"camera .fov_deg\" = 30\n", ["turn.toml:3", "expected `camera.fov_deg`"]),
+        (&format!("{keyframes}\"camera.fov_deg \"\n"), ["turn.toml:6", "expected `camera.fov_deg`"]),
+        (
+            "[[camera]]\nname = \"a\"\nset = { \" fov_deg\" = 30, fov_deg = 40 }\n",
+            ["turn.toml:4", "expected `fov_deg`"],
+        ),
+    ] {
+        let folder = folder(&format!("scene = \"seed\"\n{job}{output}"));
+        fails(folder.path(), "plan turn.toml", 3, &words);
+    }
 }
 
 #[test]

@@ -95,6 +95,7 @@ fn damaged_and_foreign_plans_are_refused() {
         (plan.replace("\"shards\": 1", "\"shards\": 0"), "damaged"),
         (plan.replace("\"spp\"", "\"ssp\""), "ssp"),
         (plan.replace("turn.0002.png", "../turn.png"), "damaged"),
+        (plan.replace("turn.0002.png", "turn.octray/0002.png"), "damaged"),
         (plan.replace("        70,", "        70000000,"), "damaged"),
     ];
     for (text, words) in cases {
@@ -127,6 +128,52 @@ fn damaged_and_foreign_records_are_refused() {
     done(path, "run turn.plan --force");
     fs::write(state(path, "plan.json"), "{").unwrap();
     fails(path, "run turn.plan", 3, &["plan.json", "no whole plan"]);
+}
+
+/// One damaged file is not found after the other: all of them are named, and of many the first ten and how many more.
+#[test]
+fn all_damaged_and_changed_files_are_named() {
+    let job = SMALL.replace("spp = 40", "spp = 1").replace("1-4", "1-13");
+    let folder = folder(&job);
+    let path = folder.path();
+    done(path, "plan turn.toml");
+    done(path, "run turn.plan");
+    let record = |unit: usize| state(path, &format!("0000/{unit:07}.json"));
+    let cut = |file: PathBuf| fs::write(&file, &fs::read(&file).unwrap()[..20]).unwrap();
+    cut(record(3));
+    cut(path.join("turn.0007.png"));
+    for verb in ["run", "merge", "status"] {
+        let said =
+            fails(path, &format!("{verb} turn.plan"), 3, &["0000003.json", "turn.0007.png", "20 bytes"]);
+        assert!(!said.contains("more"), "{said}");
+    }
+    (0..13).filter(|&unit| unit != 3).for_each(|unit| cut(record(unit)));
+    let said = fails(path, "run turn.plan", 3, &["0000000.json", "0000009.json", "and 3 more"]);
+    assert!(!said.contains("0000010.json"), "{said}");
+    done(path, "run turn.plan --force");
+    for frame in [2, 5] {
+        let file = path.join(format!("turn.{frame:04}.png"));
+        let mut bytes = fs::read(&file).unwrap();
+        bytes[50] ^= 1;
+        fs::write(file, bytes).unwrap();
+    }
+    fails(path, "merge turn.plan", 3, &["turn.0002.png: is not what", "turn.0005.png: is not what"]);
+}
+
+#[test]
+fn all_changed_assets_are_named_up_to_ten() {
+    let folder = with_mesh();
+    let path = folder.path();
+    for mesh in 0..12 {
+        fs::write(path.join(format!("{mesh:02}.obj")), MESH).unwrap();
+        append(&path.join("scene.toml"), &format!("[[mesh]]\npath = \"{mesh:02}.obj\"\n"));
+    }
+    done(path, "plan turn.toml");
+    (0..12).for_each(|mesh| fs::write(path.join(format!("{mesh:02}.obj")), &MESH[..40]).unwrap());
+    fs::remove_file(path.join("scene.toml")).unwrap();
+    let words = ["scene.toml", "00.obj has changed", "09.obj has changed", "and 2 more"];
+    let said = fails(path, "run turn.plan", 3, &words);
+    assert!(!said.contains("10.obj"), "{said}");
 }
 
 #[test]

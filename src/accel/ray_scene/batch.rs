@@ -1,13 +1,13 @@
-//! Rays as users give them, as columns for a stream.
+//! Rays as columns for a stream, in the number type of its tier, and room for what they hit.
 
 use super::is_usable;
 use crate::accel::stream::{Apex, Bound, HitColumns, RayColumns};
 use crate::intersect::{Hit, PrimId, Ray};
 use crate::math::{Real, WIDTH};
 
-/// Rays of a task in the number type of a tier, and room for what they hit.
+/// Some rays, and room for what they hit.
 #[derive(Default)]
-pub(super) struct Batch<R> {
+pub(crate) struct Batch<R> {
     origin: [Vec<R>; 3],
     direction: [Vec<R>; 3],
     t_min: Vec<R>,
@@ -24,8 +24,7 @@ impl<R: Real> Batch<R> {
     /// Takes rays in. Those that can hit nothing take the way of the one before, so that they cannot spoil its packet, and a
     /// `t_max` that tells the stream to leave them alone.
     pub(super) fn load(&mut self, rays: &[Ray]) {
-        let columns = self.origin.iter_mut().chain(&mut self.direction);
-        columns.chain([&mut self.t_min, &mut self.t_max]).for_each(Vec::clear);
+        self.columns().for_each(Vec::clear);
         let mut way = rays.iter().copied().find(is_usable).unwrap_or(Ray::new([0.0; 3], [0.0, 0.0, 1.0]));
         for &ray in rays {
             let usable = is_usable(&ray);
@@ -34,6 +33,18 @@ impl<R: Real> Batch<R> {
         }
         let first = rays.iter().take(2).map(|ray| ray.origin);
         self.apex = first.reduce(|a, b| if a == b { a } else { [f32::NAN; 3] }).map(Apex::Origin);
+    }
+
+    /// Takes rays in that are columns already: three of origins, three of directions, `t_min` and `t_max`.
+    pub(crate) fn load_columns(&mut self, columns: [&[f32]; 8]) {
+        for (to, from) in self.columns().zip(columns) {
+            to.clear();
+            to.extend(from.iter().map(|&x| R::from_f32(x)));
+        }
+    }
+
+    fn columns(&mut self) -> impl Iterator<Item = &mut Vec<R>> {
+        self.origin.iter_mut().chain(&mut self.direction).chain([&mut self.t_min, &mut self.t_max])
     }
 
     fn push(&mut self, ray: &Ray) {
@@ -51,7 +62,7 @@ impl<R: Real> Batch<R> {
     }
 
     /// The rays, and room for their hits.
-    pub(super) fn asked_for_hits(&mut self) -> (RayColumns<'_, R>, HitColumns<'_, R>) {
+    pub(crate) fn asked_for_hits(&mut self) -> (RayColumns<'_, R>, HitColumns<'_, R>) {
         let len = self.t_max.len();
         for column in [&mut self.t, &mut self.u, &mut self.v] {
             column.resize(len, R::default());
@@ -63,13 +74,13 @@ impl<R: Real> Batch<R> {
     }
 
     /// The rays, and room for a bit each.
-    pub(super) fn asked_for_any(&mut self) -> (RayColumns<'_, R>, &mut [u8]) {
+    pub(crate) fn asked_for_any(&mut self) -> (RayColumns<'_, R>, &mut [u8]) {
         self.occluded.resize(self.t_max.len().div_ceil(WIDTH), 0);
         (rays(&self.origin, &self.direction, &self.t_min, &self.t_max), &mut self.occluded)
     }
 
     /// The hit of ray `i`.
-    pub(super) fn hit(&self, i: usize) -> Option<Hit> {
+    pub(crate) fn hit(&self, i: usize) -> Option<Hit> {
         (self.t[i] < self.t_max[i]).then(|| Hit {
             t: self.t[i].to_f32(),
             u: self.u[i].to_f32(),
@@ -80,7 +91,7 @@ impl<R: Real> Batch<R> {
     }
 
     /// Whether ray `i` hits anything.
-    pub(super) fn is_occluded(&self, i: usize) -> bool {
+    pub(crate) fn is_occluded(&self, i: usize) -> bool {
         self.occluded[i / WIDTH] >> (i % WIDTH) & 1 != 0
     }
 }

@@ -4,8 +4,8 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 use std::time::Instant;
 
-use super::Work;
 use super::queue::Waiting;
+use super::work::Work;
 use crate::batch::compose::aov_bits;
 use crate::batch::part::Part;
 use crate::batch::{BatchError, Store};

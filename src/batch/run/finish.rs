@@ -4,9 +4,9 @@ use std::sync::Mutex;
 use std::sync::atomic::Ordering::Relaxed;
 use std::sync::mpsc::Receiver;
 
-use super::Work;
 use super::active::Active;
 use super::queue::Waiting;
+use super::work::Work;
 use crate::batch::BatchError;
 use crate::batch::compose::{files, film};
 use crate::batch::plan::Split;

@@ -1,5 +1,6 @@
 //! What is left to do of a plan.
 
+use crate::batch::faults::Faults;
 use crate::batch::{BatchError, Plan, Shard, Store};
 
 /// The units that are not done, and what is known of those that are.
@@ -16,9 +17,9 @@ pub(super) struct Left {
 ///
 /// **Errors:** records that are damaged or foreign.
 pub(super) fn left(plan: &Plan, store: &Store, shard: Option<Shard>) -> Result<Left, BatchError> {
-    let mut left = Left::default();
+    let (mut left, mut faults) = (Left::default(), Faults::default());
     for unit in plan.units_of(shard) {
-        match store.record(unit)? {
+        match faults.note(store.record(unit))?.flatten() {
             Some(record) => {
                 left.done += 1;
                 left.nan_samples += record.nan_samples;
@@ -26,5 +27,5 @@ pub(super) fn left(plan: &Plan, store: &Store, shard: Option<Shard>) -> Result<L
             None => left.to_do.push(unit),
         }
     }
-    Ok(left)
+    faults.told().map(|()| left)
 }

@@ -21,9 +21,9 @@ fn sizes_and_crops() {
     for bad in ["", "640", "0x480", "640x0", "x", "-1x5", "1e3x5", "640x480x3", "5000000000x1"] {
         assert!(parse_size(bad).is_err(), "{bad}");
     }
-    assert_eq!(parse_crop("0,1, 20,30"), Ok([0, 1, 20, 30]));
+    assert_eq!(render::parse_crop("0,1, 20,30"), Ok([0, 1, 20, 30]));
     for bad in ["", "1,2,3", "1,2,3,0", "1,2,0,4", "1,2,3,4,5", "-1,2,3,4"] {
-        assert!(parse_crop(bad).is_err(), "{bad}");
+        assert!(render::parse_crop(bad).is_err(), "{bad}");
     }
 }
 

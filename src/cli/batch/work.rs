@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::WorkArgs;
 use super::report::Summary;
 use crate::batch::run::{Failure, RunOptions, RunReport, Watch, run};
-use crate::batch::{Plan, Shard, Store, default_threads};
+use crate::batch::{Plan, Shard, Store, default_threads, first_lines};
 use crate::cli::error::{CliError, Exit};
 use crate::cli::log::Log;
 use crate::cli::pipeline::Progress;
@@ -103,13 +103,9 @@ impl Batch<'_> {
 const MOST_LISTED: usize = 20;
 
 fn failed(failures: &[Failure], units: u64) -> String {
-    let line = |failure: &Failure| format!("\n  {}: {}", failure.picture, failure.error);
-    let lines: String = failures.iter().take(MOST_LISTED).map(line).collect();
-    let more = match failures.len().saturating_sub(MOST_LISTED) {
-        0 => String::new(),
-        more => format!("\n  and {more} more"),
-    };
-    format!("{} of {units} units failed:{lines}{more}", failures.len())
+    let line = |failure: &Failure| format!("{}: {}", failure.picture, failure.error);
+    let lines = first_lines(MOST_LISTED, failures.iter().map(line)).join("\n  ");
+    format!("{} of {units} units failed:\n  {lines}", failures.len())
 }
 
 /// A reporter as a batch sees it.

@@ -39,8 +39,8 @@ pub fn count_visits(subject: &Subject, question: Question, rays: &RaySet) -> Opt
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::bench::subject::View;
     use crate::measure::bench::testing::subject;
+    use crate::measure::bench::view::View;
     use crate::measure::bench::{Class, ray_set};
 
     /// Each hit takes a block, each block a node, and no ray more than there are.

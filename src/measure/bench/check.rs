@@ -195,8 +195,8 @@ mod tests {
     use crate::intersect::Watertight;
     use crate::measure::bench::engine::{Engine, ask};
     use crate::measure::bench::octray::Octray;
-    use crate::measure::bench::subject::View;
     use crate::measure::bench::testing::{Liar, subject};
+    use crate::measure::bench::view::View;
     use crate::measure::bench::{Class, ray_set};
 
     fn answers(engine: &dyn Engine, question: Question, rays: &RaySet) -> Answers {

@@ -160,8 +160,8 @@ mod tests {
     use super::*;
     use crate::accel::brute;
     use crate::intersect::Ray;
-    use crate::measure::bench::subject::View;
     use crate::measure::bench::testing::subject;
+    use crate::measure::bench::view::View;
 
     const SIZE: [u32; 2] = [16, 16];
 

@@ -21,6 +21,7 @@ mod table;
 #[cfg(test)]
 mod testing;
 mod timing;
+mod view;
 
 pub use baseline::{Baseline, BaselineError, Comparison, comparison_table};
 pub use census::{Visits, count_visits};
@@ -35,9 +36,10 @@ pub use report::{BuildReport, ClassReport, EngineReport, Report, SceneReport, Se
 pub use roofline::box_tests_a_second;
 pub use run::{BenchError, Options, PeerScene, bench_scene};
 pub use scaling::{Curve, Law, Point, Quantity, Scaling, Step, TooFewSizes, scaling_plot};
-pub use subject::{Subject, Target, View};
+pub use subject::{Subject, Target};
 pub(super) use table::aligned;
 pub use table::table;
 pub use timing::Spread;
 #[cfg(feature = "peers")]
 pub(super) use timing::timed;
+pub use view::View;

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use super::engine::Engine;
 use super::rays::{HitColumns, NO_HIT, RayColumns};
 use crate::accel::stream::{self, Bound, RayStream};
-use crate::accel::{Accel, Hint, Traversal};
+use crate::accel::{Accel, Batch, Hint, Traversal};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{BitLane, Lane, Real, Vec3, WIDTH};
 
@@ -50,76 +50,10 @@ impl<'a, T: Tier> Octray<'a, T> {
 /// Rays that a worker of the renderer takes at a time.
 const WAVE: usize = 1024;
 
-/// Columns of a wave in the number type of a tier.
-struct Wave<R> {
-    origin: [Vec<R>; 3],
-    direction: [Vec<R>; 3],
-    t_min: Vec<R>,
-    t_max: Vec<R>,
-    t: Vec<R>,
-    u: Vec<R>,
-    v: Vec<R>,
-    prim: Vec<u32>,
-}
-
-impl<R: Real> Wave<R> {
-    fn new() -> Self {
-        let column = || vec![R::default(); WAVE];
-        let three = || [column(), column(), column()];
-        Self {
-            origin: three(),
-            direction: three(),
-            t_min: column(),
-            t_max: column(),
-            t: column(),
-            u: column(),
-            v: column(),
-            prim: vec![0; WAVE],
-        }
-    }
-
-    fn load(&mut self, rays: &RayColumns<'_>, first: usize) -> usize {
-        let len = WAVE.min(rays.len() - first);
-        let copy = |to: &mut [R], from: &[f32]| {
-            for (to, from) in to.iter_mut().zip(&from[first..first + len]) {
-                *to = R::from_f32(*from);
-            }
-        };
-        for k in 0..3 {
-            copy(&mut self.origin[k], rays.origin[k]);
-            copy(&mut self.direction[k], rays.direction[k]);
-        }
-        copy(&mut self.t_min, rays.t_min);
-        copy(&mut self.t_max, rays.t_max);
-        len
-    }
-
-    /// Gives the hits back.
-    fn store(&self, t: &mut [f32], prim: &mut [u32]) {
-        for (i, (t, prim)) in t.iter_mut().zip(prim).enumerate() {
-            *t = self.t[i].to_f32();
-            *prim = if self.t[i] < self.t_max[i] { self.prim[i] } else { NO_HIT };
-        }
-    }
-
-    /// The rays, and room for their hits.
-    fn split(&mut self, len: usize) -> (stream::RayColumns<'_, R>, stream::HitColumns<'_, R>) {
-        let rays = stream::RayColumns {
-            len,
-            origin: self.origin.each_ref().map(|c| &c[..]),
-            direction: self.direction.each_ref().map(|c| &c[..]),
-            t_min: Bound::Each(&self.t_min),
-            t_max: Bound::Each(&self.t_max),
-        };
-        let hits = stream::HitColumns {
-            t: &mut self.t,
-            u: &mut self.u,
-            v: &mut self.v,
-            prim: &mut self.prim,
-            instance: &mut [],
-        };
-        (rays, hits)
-    }
+/// The columns of some rays, as a batch takes them.
+fn columns<'r>(rays: &RayColumns<'r>) -> [&'r [f32]; 8] {
+    let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
+    [ox, oy, oz, dx, dy, dz, rays.t_min, rays.t_max]
 }
 
 /// The columns as they are, where they are of a tier's number type.
@@ -138,7 +72,8 @@ fn as_they_are<'r, R: Real>(rays: &RayColumns<'r>) -> Option<stream::RayColumns<
 impl<T: Tier> Octray<'_, T> {
     fn closest_in_streams(&self, rays: &RayColumns<'_>, hits: &mut HitColumns<'_>) {
         let mut stream = RayStream::<T>::new(self.accel);
-        let (mut wave, mut u, mut v) = (Wave::new(), [T::Real::default(); WAVE], [T::Real::default(); WAVE]);
+        let mut batch = Batch::<T::Real>::default();
+        let (mut u, mut v) = ([T::Real::default(); WAVE], [T::Real::default(); WAVE]);
         for first in (0..rays.len()).step_by(WAVE) {
             let part = rays.slice(first..rays.len().min(first + WAVE));
             let (t, prim) = (&mut hits.t[first..][..part.len()], &mut hits.prim[first..][..part.len()]);
@@ -153,25 +88,28 @@ impl<T: Tier> Octray<'_, T> {
                     }
                 }
                 _ => {
-                    let len = wave.load(&part, 0);
-                    let (columns, mut found) = wave.split(len);
-                    stream.closest(&columns, rays.apex, self.hint, &mut found);
-                    wave.store(t, prim);
+                    batch.load_columns(columns(&part));
+                    let (rows, mut found) = batch.asked_for_hits();
+                    stream.closest(&rows, rays.apex, self.hint, &mut found);
+                    for (i, (t, prim)) in t.iter_mut().zip(prim).enumerate() {
+                        let hit = batch.hit(i).map(|hit| (hit.t, hit.prim.0));
+                        (*t, *prim) = hit.unwrap_or((part.t_max[i], NO_HIT));
+                    }
                 }
             }
         }
     }
 
     fn any_in_streams(&self, rays: &RayColumns<'_>, occluded: &mut [bool]) {
-        let (mut stream, mut wave) = (RayStream::<T>::new(self.accel), Wave::new());
+        let (mut stream, mut batch) = (RayStream::<T>::new(self.accel), Batch::<T::Real>::default());
         let mut bits = [0; WAVE / WIDTH];
         for (first, occluded) in (0..rays.len()).step_by(WAVE).zip(occluded.chunks_mut(WAVE)) {
             let part = rays.slice(first..first + occluded.len());
             match as_they_are(&part) {
                 Some(columns) => stream.any(&columns, rays.apex, self.hint, &mut bits),
                 None => {
-                    let len = wave.load(&part, 0);
-                    stream.any(&wave.split(len).0, rays.apex, self.hint, &mut bits);
+                    batch.load_columns(columns(&part));
+                    stream.any(&batch.asked_for_any().0, rays.apex, self.hint, &mut bits);
                 }
             }
             for (i, occluded) in occluded.iter_mut().enumerate() {

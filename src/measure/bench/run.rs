@@ -211,8 +211,8 @@ fn title(engine: &dyn Engine) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::measure::bench::subject::View;
     use crate::measure::bench::testing::{Liar, subject};
+    use crate::measure::bench::view::View;
 
     fn options(tier: TierName) -> Options {
         Options { classes: Class::ALL.to_vec(), tier, size: [24, 24], runs: 2, peak_box_tests_s: 1e9 }

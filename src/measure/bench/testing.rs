@@ -2,7 +2,8 @@
 
 use super::engine::Engine;
 use super::rays::{HitColumns, RayColumns};
-use super::subject::{Subject, View};
+use super::subject::Subject;
+use super::view::View;
 use crate::describe::builtin;
 use crate::scene::Scene;
 

@@ -110,15 +110,17 @@ fn table(report: &Report) -> Markup {
     let names = report.base.fields().map(|(name, _)| name);
     let figures = ["ms", "spread", "Mrays", "RMSE", "relMSE", "PSNR", "FLIP", "max", "wrong pixels"];
     html! {
-        table {
-            thead { tr { @for name in names { th { (name) } } @for name in figures { th.number { (name) } } } }
-            tbody {
-                @for row in &report.rows {
-                    tr.front[row.on_front] {
-                        @for ((name, value), (_, own)) in row.setting.fields().into_iter().zip(report.base.fields()) {
-                            td.changed[value != own && name != "spp"] { (value) }
+        div.table {
+            table {
+                thead { tr { @for name in names { th { (name) } } @for name in figures { th.number { (name) } } } }
+                tbody {
+                    @for row in &report.rows {
+                        tr.front[row.on_front] {
+                            @for ((name, value), (_, own)) in row.setting.fields().into_iter().zip(report.base.fields()) {
+                                td.changed[value != own && name != "spp"] { (value) }
+                            }
+                            @for value in values(row) { td.number { (value) } }
                         }
-                        @for value in values(row) { td.number { (value) } }
                     }
                 }
             }

@@ -9,6 +9,7 @@ use crate::intersect::RayLanes;
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::pressed::pressed;
 use crate::intersect::testing::{exact, line};
+use crate::math::Transform;
 use crate::wavefront::offset_along;
 
 /// The same sphere in the world and shown once more, turned and pressed.
