@@ -5,57 +5,31 @@
 //! `b0 z <= y <= b1 z`, `0 <= z <= reach`. It misses a box if all corners lie beyond one of those six planes, and a
 //! triangle if all its rays pass on the outer side of one edge. Departures from the plain form:
 //! - everything is widened by bounds on what the primitive tests may be off by, so that results do not depend on culling;
-//! - the pyramid may stand on its tip: shadow rays towards a light meet in their target.
+//! - the pyramid may stand on its tip: shadow rays towards a light meet in their target;
+//! - rays may start beyond the apex, and pass it by: those that a mirror throws back. Then `z` starts where the first does.
 //!
 //! **Source:** Reshetov, Soupikov and Hurley, Multi-Level Ray Tracing Algorithm, 2005; Boulos, Wald and Benthin, Adaptive
 //! Ray Packet Reordering, 2008. Changed: eight boxes, or the slopes of eight packets, a test; edge functions with bounds.
 
+mod apex;
 mod edges;
+mod focus;
 mod slopes;
+mod surround;
+#[cfg(test)]
+mod tests;
 mod view;
 
 use wide::f32x8;
 
-use crate::accel::instance::TreeRoot;
 use crate::accel::node::Node8;
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Lane, Mask, Real, Transform, Vec3, WIDTH};
+use crate::math::{Lane, Mask, Vec3, WIDTH};
+pub use apex::Apex;
 use edges::Edges;
-use slopes::{Slopes, greatest, least, range, slopes};
+pub(super) use focus::focus;
+use slopes::{Slopes, greatest};
 use view::{Boxes, View};
-
-/// What rays of a stream have in common. It changes time, never results: rays that it is not true of go another way.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Apex {
-    /// All start here, up to rounding.
-    Origin([f32; 3]),
-    /// All pass through here, up to rounding, at or beyond their `t_max`.
-    Target([f32; 3]),
-}
-
-impl Apex {
-    /// The same point, in the space of an instance.
-    pub(super) fn in_space_of(self, to_world: &Transform) -> Self {
-        let inside = |p: [f32; 3]| to_world.inverted().point(p.map(f64::from)).map(|x| x as f32);
-        match self {
-            Self::Origin(p) => Self::Origin(inside(p)),
-            Self::Target(p) => Self::Target(inside(p)),
-        }
-    }
-}
-
-/// Roundoffs of the largest coordinate by which rays may pass by their apex.
-const APEX_ROUNDOFFS: f64 = 8.0;
-
-/// Roundoffs of the largest coordinate by which the sides are moved outwards: the 36 by which boxes of a tree are padded,
-/// 8 for an apex that rays pass by, 8 for the roundings of slopes and planes, on both axes of a slope up to 2; and a
-/// quarter more.
-const SIDE_ROUNDOFFS: f64 = 192.0;
-
-/// The same for edge functions, of the product of the largest coordinate and the distance at which rays pass the
-/// corners: a coordinate across is off by 6 roundoffs of the largest, by 14 for an apex that rays pass by, in the triangle
-/// test as here; an edge function is the sum of two products of two such; and twice that.
-const EDGE_ROUNDOFFS: f64 = 128.0;
 
 /// Where eight primitives stand, as rays see them.
 #[derive(Clone, Copy, Debug)]
@@ -69,7 +43,7 @@ pub(super) struct Sight {
 #[derive(Clone, Debug)]
 pub(super) struct Frustum {
     view: View,
-    is_target: bool,
+    apex: Apex,
     /// Bit `k` set where rays go against axis `k`: the order of visits.
     pub(super) octant: usize,
     all: Slopes,
@@ -79,8 +53,12 @@ pub(super) struct Frustum {
     about_middle: Slopes,
     /// Largest slope about the middle.
     spread: f32x8,
+    /// Where rays start along `z`, by packet; with an apex to come, 0.
+    start: [f32x8; WIDTH],
     /// Length of the directions along `z`, by packet.
     along: [f32x8; WIDTH],
+    /// Where along `z` the first ray starts.
+    first: f32x8,
     /// How far along `z` each packet still looks.
     packet_reach: [f32; WIDTH],
     /// How far along `z` any packet still looks.
@@ -95,14 +73,16 @@ impl Default for Frustum {
         let none = Slopes { a: [f32x8::ZERO; 2], b: [f32x8::ZERO; 2] };
         Self {
             view: View { axes: [0, 1, 2], backward: false, apex: [0.0; 3] },
-            is_target: false,
+            apex: Apex::Origin([0.0; 3]),
             octant: 0,
             all: none,
             packets: none,
             middle: [f32x8::ZERO; 2],
             about_middle: none,
             spread: f32x8::ZERO,
+            start: [f32x8::ZERO; WIDTH],
             along: [f32x8::ONE; WIDTH],
+            first: f32x8::ZERO,
             packet_reach: [f32::NEG_INFINITY; WIDTH],
             reach: f32::NEG_INFINITY,
             side_pad: f32x8::ZERO,
@@ -112,95 +92,18 @@ impl Default for Frustum {
 }
 
 impl Frustum {
-    /// Puts the pyramid around packets; `None`, and of no use, where they have no axis in common, go too far apart, or lie
-    /// so far out that a bound overflows. In place, as it is large.
-    ///
-    /// **Needs:** one to eight packets.
-    pub(super) fn surround<T: Tier>(
-        &mut self,
-        packets: &[RayLanes<T::Wide>],
-        apex: Apex,
-        tree: TreeRoot,
-    ) -> Option<()> {
-        let (point, is_target) = match apex {
-            Apex::Origin(point) => (point, false),
-            Apex::Target(point) => (point, true),
-        };
-        let first = packets.iter().find(|rays| asked::<T>(rays) != 0)?;
-        let lead = asked::<T>(first).trailing_zeros() as usize;
-        let view = View::along(from_apex::<T>(first, point, is_target).get(lead), point);
-        let mut a = [f32x8::ZERO; WIDTH];
-        let mut b = a;
-        let (mut astray, mut far) = (f32x8::ZERO, Vec3::zero());
-        for (j, rays) in packets.iter().enumerate() {
-            let asked = asked::<T>(rays);
-            if asked & !rays.t_min.ge(T::Wide::zero()).bits() != 0 {
-                return None;
-            }
-            let seen = view.direction(from_apex::<T>(rays, point, is_target));
-            (a[j], b[j], self.along[j]) = slopes(seen, asked)?;
-            let origin = narrow::<T>(rays.origin);
-            let by = match is_target {
-                true => passes_by::<T>(rays, &view, seen),
-                false => (origin - Vec3::splat(point)).abs().max_component(),
-            };
-            let by = Lane::select(by.ge(f32x8::ZERO), by, f32x8::splat(f32::INFINITY));
-            let asked = Mask::from_bits(asked);
-            astray = Lane::select(asked, Lane::max(astray, by), astray);
-            far = Vec3::select(asked, far.max(origin.abs()), far);
-        }
-        for j in packets.len()..WIDTH {
-            (a[j], b[j]) = (a[0], b[0]);
-        }
-        let scale = greatest(tree.scale_for(far).max(far.max_component()));
-        let size = point.iter().fold(scale, |size, x| size.max(x.abs()));
-        let close = greatest(astray) <= size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32;
-        if !close {
-            return None;
-        }
-        (self.view, self.is_target) = (view, is_target);
-        self.packet_reach = [f32::NEG_INFINITY; WIDTH];
-        self.set_slopes(Slopes { a: range(a), b: range(b) });
-        self.set_pads(2.0 * size)
-    }
-
     /// What the rays have in common.
     pub(super) fn apex(&self) -> Apex {
-        let point = self.view.apex;
-        if self.is_target { Apex::Target(point) } else { Apex::Origin(point) }
-    }
-
-    /// Takes the slopes of packets, and from them the order of visits.
-    #[inline(always)]
-    fn set_slopes(&mut self, packets: Slopes) {
-        let whole = |s: [f32x8; 2]| [f32x8::splat(least(s[0])), f32x8::splat(greatest(s[1]))];
-        let all = Slopes { a: whole(packets.a), b: whole(packets.b) };
-        let half = f32x8::splat(0.5);
-        let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
-        (self.all, self.packets, self.middle) = (all, packets, middle);
-        self.about_middle = all.about(middle);
-        self.spread = self.about_middle.greatest();
-        let [x, y, z] = self.view.axes;
-        let backward = |middle: f32x8| usize::from(middle.get(0) < 0.0);
-        self.octant =
-            backward(middle[0]) << x | backward(middle[1]) << y | usize::from(self.view.backward) << z;
-    }
-
-    /// Takes the size of coordinates; `None` where a bound overflows.
-    #[inline(always)]
-    fn set_pads(&mut self, size: f32) -> Option<()> {
-        let pad = |roundoffs: f64| f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32);
-        (self.side_pad, self.edge_pad) = (pad(SIDE_ROUNDOFFS), pad(EDGE_ROUNDOFFS));
-        self.edge_pad.get(0).is_finite().then_some(())
+        self.apex
     }
 
     /// Takes note that the rays of packet `j` need nothing at or beyond `limit`; [`Frustum::update_reach`] must follow.
     #[inline(always)]
     pub(super) fn look(&mut self, j: usize, limit: f32x8) {
         let off = f32x8::splat(f32::NEG_INFINITY);
-        let reach = match self.is_target {
+        let reach = match self.apex.is_target() {
             true => Lane::select(limit.gt(off), self.along[j], off),
-            false => limit * self.along[j],
+            false => self.start[j] + limit * self.along[j],
         };
         self.packet_reach[j] = greatest(reach);
     }
@@ -221,9 +124,10 @@ impl Frustum {
     /// The slopes at which rays may meet eight primitives in their boxes.
     #[inline(always)]
     pub(super) fn sight(&self, [lo, hi]: &Boxes) -> Sight {
-        let (at_near, at_far) = (f32x8::ONE / lo.z, f32x8::ONE / hi.z);
+        let nearest = lo.z.max(self.first - self.side_pad);
+        let (at_near, at_far) = (f32x8::ONE / nearest, f32x8::ONE / hi.z);
         let infinity = f32x8::splat(f32::INFINITY);
-        let in_front = lo.z.gt(self.side_pad) & at_near.lt(infinity);
+        let in_front = nearest.gt(self.side_pad) & at_near.lt(infinity);
         let pad = self.side_pad * at_near;
         let range = |lo: f32x8, hi: f32x8| {
             let least = (lo * at_near).min(lo * at_far) - pad;
@@ -263,7 +167,7 @@ impl Frustum {
             .max(below(hi.x, slopes.a[0]))
             .max(above(lo.y, slopes.b[1]))
             .max(below(hi.y, slopes.b[0]))
-            .max(-hi.z);
+            .max(self.first - hi.z);
         (outside.le(pad) & lo.z.le(reach)).bits()
     }
 
@@ -285,25 +189,6 @@ impl Frustum {
 #[inline(always)]
 fn asked<T: Tier>(rays: &RayLanes<T::Wide>) -> u32 {
     T::nearest_f32(rays.t_max).gt(f32x8::splat(f32::NEG_INFINITY)).bits()
-}
-
-/// From the apex along the rays: their directions, or where they come from.
-#[inline(always)]
-fn from_apex<T: Tier>(rays: &RayLanes<T::Wide>, apex: [f32; 3], is_target: bool) -> Vec3<f32x8> {
-    match is_target {
-        true => narrow::<T>(rays.origin) - Vec3::splat(apex),
-        false => narrow::<T>(rays.direction),
-    }
-}
-
-/// How far rays from `seen` pass by the target; infinite where they are asked for what is beyond it.
-#[inline(always)]
-fn passes_by<T: Tier>(rays: &RayLanes<T::Wide>, view: &View, seen: Vec3<f32x8>) -> f32x8 {
-    let d = view.direction(narrow::<T>(rays.direction));
-    let t = -seen.z / d.z;
-    let by = Lane::max((seen.x + t * d.x).abs(), (seen.y + t * d.y).abs());
-    let ends = T::nearest_f32(rays.t_max).le(t * f32x8::splat(1.0 + 4.0 * f32::EPSILON));
-    Lane::select(ends, by, f32x8::splat(f32::INFINITY))
 }
 
 #[inline(always)]

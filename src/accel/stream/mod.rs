@@ -22,7 +22,7 @@ use flight::{Alone, Flight};
 
 pub use columns::{Bound, HitColumns, RayColumns};
 pub use frustum::Apex;
-use frustum::Frustum;
+use frustum::{Frustum, focus};
 
 /// Packets in a bundle.
 const BUNDLE: usize = WIDTH;
@@ -185,8 +185,9 @@ struct Bundles<'a, T: Tier> {
     rays: Box<[RayLanes<T::Wide>; BUNDLE]>,
     frustum: Box<Frustum>,
     work: Box<Workplace<T>>,
-    /// Where a bundle does not pay, its neighbours hardly would.
+    /// Where a bundle does not pay, its neighbours hardly would: those whose apex is known, and those whose is guessed.
     pace: Pace,
+    guess: Pace,
 }
 
 impl<'a, T: Tier> Bundles<'a, T> {
@@ -198,6 +199,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             frustum: Box::default(),
             work: Box::default(),
             pace: Pace::default(),
+            guess: Pace::default(),
         }
     }
 
@@ -213,8 +215,9 @@ impl<'a, T: Tier> Bundles<'a, T> {
     ) {
         let end = rays.len.min(first + BUNDLE * WIDTH);
         let packets = (first..end).step_by(WIDTH);
-        let tried = apex.filter(|_| self.pace.tries());
-        if tried.is_none() && !self.traversal.may_go_together(hint, end - first) {
+        let known = apex.filter(|_| self.pace.tries());
+        let guesses = apex.is_none() && hint != Hint::Incoherent && self.guess.tries();
+        if known.is_none() && !guesses && !self.traversal.may_go_together(hint, end - first) {
             packets.for_each(|at| alone.push(at));
             return;
         }
@@ -224,7 +227,8 @@ impl<'a, T: Tier> Bundles<'a, T> {
             ask_planes(self.accel, &self.rays[j], &mut queries[j]);
         }
         let queries = &mut queries[..packets.len()];
-        let whole = tried.is_some_and(|apex| self.trace_bundle(apex, queries));
+        let apex = if guesses { self.guess_apex(queries.len()) } else { known };
+        let whole = apex.is_some_and(|apex| self.trace_bundle(apex, queries));
         for (j, at) in packets.enumerate() {
             if whole || self.trace_packet(j, hint, &mut queries[j]) {
                 answers.store(at, &queries[j]);
@@ -243,18 +247,32 @@ impl<'a, T: Tier> Bundles<'a, T> {
         together
     }
 
+    /// The apex behind where the rays of so many packets start, if they seem to have one.
+    fn guess_apex(&mut self, packets: usize) -> Option<Apex> {
+        let point = focus::<T>(&self.rays[..packets], self.accel.world);
+        if point.is_none() {
+            self.guess.learn(-1);
+        }
+        point.map(Apex::Behind)
+    }
+
     /// False if the packets do not make a bundle, or not a good one.
+    #[inline(never)]
     fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> bool {
         let world = self.accel.world;
         let rays = &self.rays[..queries.len()];
+        let pace = if apex.is_behind() { &mut self.guess } else { &mut self.pace };
         let Some(mut bundle) = Bundle::new(rays, apex, world, (&mut self.frustum, &mut self.work), queries)
         else {
+            if apex.is_behind() {
+                pace.learn(-1);
+            }
             return false;
         };
         let mut stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
         let done = bundle.descend(self.accel, world.node, &mut stacks);
-        self.pace.learn(if bundle.has_paid() { 0 } else { -1 });
+        pace.learn(if bundle.has_paid() { 0 } else { -1 });
         done
     }
 }

@@ -91,7 +91,7 @@ fn check<T: Tier>(geometry: &Geometry, accel: &Accel, asked: &[Ray], apex: Optio
     expected.iter().flatten().count()
 }
 
-/// Rays with a common origin or target, near each other more often than not, and many of them through landmarks.
+/// Rays with a common origin or target, or from behind one, near each other more often than not, and many of them through landmarks.
 fn with_apex(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> (Vec<Ray>, Apex) {
     let near = |at: [f32; 3], by: f64, dice: &mut Dice| -> [f32; 3] {
         let offset = dice.point();
@@ -107,11 +107,17 @@ fn with_apex(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> (Vec<Ray>
         _ => dice.point().map(|x| x as f32 * 8.0),
     };
     let (middle, spread) = (pick(dice), [0.0, 0.05, 0.5, 3.0][dice.below(4)]);
-    let is_target = dice.below(2) == 0;
+    let (kind, stray) = (dice.below(3), [0.0, 1e-5, 1e-3][dice.below(3)]);
+    let (is_target, is_behind) = (kind == 1, kind == 2);
     let ray = |dice: &mut Dice| {
         let end = if dice.below(4) == 0 { pick(dice) } else { near(middle, spread, dice) };
         let (from, to) = if is_target { (end, apex) } else { (apex, end) };
         let towards = Ray::new(from, std::array::from_fn(|k| to[k] - from[k]));
+        let towards = if is_behind {
+            started(&towards, dice.between(0.4, 0.6), near(from, stray, dice))
+        } else {
+            towards
+        };
         match dice.below(12) {
             0 => Ray { t_min: dice.between(-0.5, 0.5) as f32, ..towards },
             1 => Ray { t_max: dice.between(0.0, 1.0) as f32, ..towards },
@@ -121,7 +127,12 @@ fn with_apex(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> (Vec<Ray>
         }
     };
     let rays = (0..count).map(|_| ray(dice)).collect();
-    (rays, if is_target { Apex::Target(apex) } else { Apex::Origin(apex) })
+    (rays, [Apex::Origin, Apex::Target, Apex::Behind][kind](apex))
+}
+
+/// The ray so far on its way, had it come from elsewhere.
+fn started(ray: &Ray, way: f64, from: [f32; 3]) -> Ray {
+    Ray { origin: std::array::from_fn(|k| from[k] + (way * f64::from(ray.direction[k])) as f32), ..*ray }
 }
 
 fn check_world<T: Tier>(world: &World, seed: u64) -> usize {
@@ -135,6 +146,7 @@ pub(super) fn check_tree<T: Tier>(world: &World, quality: Quality, seed: u64) ->
     for _ in 0..4 {
         let (rays, apex) = with_apex(&world.landmarks(), dice, 136);
         hits += check::<T>(&geometry, &accel, &rays, Some(apex));
+        hits += check::<T>(&geometry, &accel, &rays, None);
     }
     hits
 }

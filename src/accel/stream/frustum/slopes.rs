@@ -39,6 +39,11 @@ impl Slopes {
         let one = |s: [f32x8; 2]| [f32x8::splat(s[0].get(i)), f32x8::splat(s[1].get(i))];
         Self { a: one(self.a), b: one(self.b) }
     }
+    /// How much those of the first lane differ.
+    pub(super) fn widest(&self) -> f32 {
+        let wide = |s: [f32x8; 2]| s[1] - s[0];
+        wide(self.a).max(wide(self.b)).get(0)
+    }
     /// Relative to those of the middle.
     #[inline(always)]
     pub(super) fn about(&self, [a, b]: [f32x8; 2]) -> Self {

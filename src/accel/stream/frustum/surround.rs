@@ -1,0 +1,116 @@
+//! Putting the pyramid around rays: their slopes, and by how much they may be off.
+
+use wide::f32x8;
+
+use super::slopes::{Slopes, greatest, least, range, slopes};
+use super::view::View;
+use super::{Apex, Frustum, asked, narrow};
+use crate::accel::instance::TreeRoot;
+use crate::intersect::{RayLanes, Tier};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
+
+/// Roundoffs of the largest coordinate by which rays may pass by their apex.
+const APEX_ROUNDOFFS: f64 = 8.0;
+
+/// Roundoffs of the largest coordinate by which the sides are moved outwards: the 36 by which boxes of a tree are padded,
+/// 8 for an apex that rays pass by, 8 for the roundings of slopes and planes, on both axes of a slope up to 2; and a
+/// quarter more.
+const SIDE_ROUNDOFFS: f64 = 192.0;
+
+/// The same for edge functions, of the product of the largest coordinate and the distance at which rays pass the
+/// corners: a coordinate across is off by 6 roundoffs of the largest, by 14 for an apex that rays pass by, in the triangle
+/// test as here; an edge function is the sum of two products of two such; and twice that.
+const EDGE_ROUNDOFFS: f64 = 128.0;
+
+/// Roundings on the way from where rays start back to an apex behind them are within the slack of both.
+///
+/// What rays pass by such an apex counts so many times in edge functions: the four of above, and a quarter more.
+const EDGE_STRAYS: f32 = 5.0;
+
+/// How far rays may pass by an apex behind them, as a part of how wide they are where they start: more would be no beam.
+const STRAY: f32 = 0.03;
+
+impl Frustum {
+    /// Puts the pyramid around packets; `None`, and of no use, where they have no axis in common, go too far apart, are not
+    /// as the apex says, or lie so far out that a bound overflows. In place, as it is large.
+    ///
+    /// **Needs:** one to eight packets.
+    pub(in super::super) fn surround<T: Tier>(
+        &mut self,
+        packets: &[RayLanes<T::Wide>],
+        apex: Apex,
+        tree: TreeRoot,
+    ) -> Option<()> {
+        let leader = packets.iter().find(|rays| asked::<T>(rays) != 0)?;
+        let lead = asked::<T>(leader).trailing_zeros() as usize;
+        (self.apex, self.view) = (apex, View::along(apex.towards::<T>(leader).get(lead), apex.point()));
+        let (astray, size) = self.survey::<T>(packets, tree)?;
+        let (allowed, counted) = match apex.is_behind() {
+            true => (STRAY * self.all.widest() * self.first.get(0), astray),
+            false => (size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32, 0.0),
+        };
+        let close = astray <= allowed;
+        if !close {
+            return None;
+        }
+        self.packet_reach = [f32::NEG_INFINITY; WIDTH];
+        self.set_pads(2.0 * size, counted)
+    }
+
+    /// Takes note of where rays start and how they go; gives how far any passes by the apex, and the largest coordinate.
+    #[inline(always)]
+    fn survey<T: Tier>(&mut self, packets: &[RayLanes<T::Wide>], tree: TreeRoot) -> Option<(f32, f32)> {
+        let (mut a, mut b) = ([f32x8::ZERO; WIDTH], [f32x8::ZERO; WIDTH]);
+        let (mut astray, mut far) = (f32x8::ZERO, Vec3::zero());
+        let mut first = f32x8::splat(f32::INFINITY);
+        for (j, rays) in packets.iter().enumerate() {
+            let asked = asked::<T>(rays);
+            if asked & !rays.t_min.ge(T::Wide::zero()).bits() != 0 {
+                return None;
+            }
+            (a[j], b[j], self.along[j]) = slopes(self.view.direction(self.apex.towards::<T>(rays)), asked)?;
+            let (start, by) = self.apex.start::<T>(rays, &self.view, [a[j], b[j]]);
+            let asked = Mask::from_bits(asked);
+            self.start[j] = Lane::select(asked, start, f32x8::ZERO);
+            first = Lane::select(asked, Lane::min(first, start), first);
+            astray = Lane::select(asked, Lane::max(astray, by), astray);
+            far = Vec3::select(asked, far.max(narrow::<T>(rays.origin).abs()), far);
+        }
+        for j in packets.len()..WIDTH {
+            (a[j], b[j]) = (a[0], b[0]);
+        }
+        let scale = greatest(tree.scale_for(far).max(far.max_component()));
+        let size = self.view.apex.iter().fold(scale, |size, x| size.max(x.abs()));
+        self.first = f32x8::splat(least(first));
+        self.set_slopes(Slopes { a: range(a), b: range(b) });
+        Some((greatest(astray), size))
+    }
+
+    /// Takes the slopes of packets, and from them the order of visits.
+    #[inline(always)]
+    fn set_slopes(&mut self, packets: Slopes) {
+        let whole = |s: [f32x8; 2]| [f32x8::splat(least(s[0])), f32x8::splat(greatest(s[1]))];
+        let all = Slopes { a: whole(packets.a), b: whole(packets.b) };
+        let half = f32x8::splat(0.5);
+        let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
+        (self.all, self.packets, self.middle) = (all, packets, middle);
+        self.about_middle = all.about(middle);
+        self.spread = self.about_middle.greatest();
+        let [x, y, z] = self.view.axes;
+        let backward = |middle: f32x8| usize::from(middle.get(0) < 0.0);
+        self.octant =
+            backward(middle[0]) << x | backward(middle[1]) << y | usize::from(self.view.backward) << z;
+    }
+
+    /// Takes the size of coordinates, and by how much more than roundoffs rays pass by the apex; `None` where a bound
+    /// overflows.
+    #[inline(always)]
+    fn set_pads(&mut self, size: f32, astray: f32) -> Option<()> {
+        let pad = |roundoffs: f64, more: f32| {
+            f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32 + more)
+        };
+        self.side_pad = pad(SIDE_ROUNDOFFS, astray);
+        self.edge_pad = pad(EDGE_ROUNDOFFS, EDGE_STRAYS * astray);
+        self.edge_pad.get(0).is_finite().then_some(())
+    }
+}

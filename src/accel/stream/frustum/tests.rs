@@ -1,0 +1,127 @@
+use super::{Apex, Frustum, focus};
+use crate::accel::instance::TreeRoot;
+use crate::intersect::testing::dice::Dice;
+use crate::intersect::{Ray, RayLanes, Watertight};
+use crate::math::{Aabb, Lane, Vec3, WIDTH, three};
+use wide::f32x8;
+
+/// Least and greatest coordinates.
+type Extent = [[f32; 3]; 2];
+
+fn offset(at: [f64; 3], by: f64, dice: &mut Dice) -> [f64; 3] {
+    let p = dice.point();
+    three(|k| at[k] + by * p[k])
+}
+
+/// Sixty-four rays from an apex past a point, and the apex; as a mirror would throw them back, they start on the way.
+fn beam(dice: &mut Dice) -> (Vec<Ray>, Apex) {
+    let (apex, middle) = (dice.point().map(|x| 3.0 * x), dice.point());
+    let (kind, spread) = (dice.below(3), dice.between(0.01, 0.3));
+    let narrow = |p: [f64; 3]| p.map(|x| x as f32);
+    let ray = |dice: &mut Dice| {
+        let end = narrow(offset(middle, spread, dice));
+        let (from, to) = if kind == 1 { (end, narrow(apex)) } else { (narrow(apex), end) };
+        let mut ray = Ray::new(from, three(|k| to[k] - from[k]));
+        ray.t_max = [f32::INFINITY, 1.0, dice.between(0.5, 3.0) as f32][kind];
+        if kind == 2 {
+            let way = dice.between(0.3, 0.5);
+            let from = offset(apex, 1e-4, dice);
+            ray.origin = narrow(three(|k| from[k] + way * f64::from(ray.direction[k])));
+        }
+        ray
+    };
+    let rays = (0..WIDTH * WIDTH).map(|_| ray(dice)).collect();
+    (rays, [Apex::Origin, Apex::Target, Apex::Behind][kind](narrow(apex)))
+}
+
+/// A box of any size on the way of a ray, or beside it.
+fn on_the_way(rays: &[Ray], dice: &mut Dice) -> Extent {
+    let ray = &rays[dice.below(rays.len())];
+    let t = dice.between(-0.5, 2.0);
+    let at = three(|k| f64::from(ray.origin[k]) + t * f64::from(ray.direction[k]));
+    let at = offset(at, [0.0, 0.01, 0.3][dice.below(3)], dice);
+    let size = [0.0, 1e-4, 0.02, 0.5][dice.below(4)];
+    let (p, q) = (offset(at, size, dice), offset(at, size, dice));
+    [three(|k| p[k].min(q[k]) as f32), three(|k| p[k].max(q[k]) as f32)]
+}
+
+/// Whether a ray meets a box, by its slabs in `f64`.
+fn meets(ray: &Ray, [lo, hi]: &Extent) -> bool {
+    let (mut first, mut last) = (f64::from(ray.t_min), f64::from(ray.t_max));
+    for k in 0..3 {
+        let at = |plane: f32| (f64::from(plane) - f64::from(ray.origin[k])) / f64::from(ray.direction[k]);
+        let (a, b) = (at(lo[k]), at(hi[k]));
+        (first, last) = (first.max(a.min(b)), last.min(a.max(b)));
+    }
+    first <= last
+}
+
+fn packets(rays: &[Ray]) -> Vec<RayLanes<f32x8>> {
+    let one: Vec<RayLanes<f32>> = rays.iter().map(RayLanes::from).collect();
+    (0..WIDTH).map(|j| RayLanes::gather(|i| &one[WIDTH * j + i])).collect()
+}
+
+/// The frustum of a beam, by its apex or by the one that is found for it.
+fn around(rays: &[Ray], apex: Apex, finds: bool) -> Option<Frustum> {
+    let world = TreeRoot::new(0, &Aabb { min: [-4.0; 3], max: [4.0; 3] });
+    let (packets, mut frustum) = (packets(rays), Frustum::default());
+    let apex = if finds { Apex::Behind(focus::<Watertight>(&packets, world)?) } else { apex };
+    frustum.surround::<Watertight>(&packets, apex, world)?;
+    (0..WIDTH).for_each(|j| frustum.look(j, packets[j].t_max));
+    frustum.update_reach();
+    Some(frustum)
+}
+
+/// What a frustum says of eight boxes: that rays may meet them, and which packets may meet each.
+fn answers(frustum: &Frustum, extents: &[Extent; WIDTH]) -> (u32, [u32; WIDTH]) {
+    let column = |side: usize, k: usize| f32x8::from_fn(|i| extents[i][side][k]);
+    let boxes = frustum.view().boxes(|k| column(0, k), |k| column(1, k));
+    let sight = frustum.sight(&boxes);
+    let seen = frustum.sees(&sight) & frustum.meets(&frustum.all, &boxes, f32x8::splat(frustum.reach));
+    (seen, std::array::from_fn(|i| frustum.packets(&sight, i)))
+}
+
+#[test]
+fn what_a_ray_meets_is_not_culled_and_most_of_the_rest_is() {
+    let (mut beams, mut met, mut kept, mut missed) = (0, 0, 0, 0);
+    for seed in 0..3_000 {
+        let dice = &mut Dice(seed);
+        let (rays, apex) = beam(dice);
+        let Some(frustum) = around(&rays, apex, matches!(apex, Apex::Behind(_)) && seed % 2 == 0) else {
+            continue;
+        };
+        beams += 1;
+        let extents: [Extent; WIDTH] = std::array::from_fn(|_| on_the_way(&rays, dice));
+        let (seen, packets) = answers(&frustum, &extents);
+        for (i, extent) in extents.iter().enumerate() {
+            let meets: Vec<usize> = (0..rays.len()).filter(|&r| meets(&rays[r], extent)).collect();
+            for &r in &meets {
+                assert!(seen >> i & 1 != 0, "{:?} {extent:?} {apex:?}", rays[r]);
+                assert!(packets[i] >> (r / WIDTH) & 1 != 0, "{:?} {extent:?} {apex:?}", rays[r]);
+            }
+            match meets.is_empty() {
+                true => (missed, kept) = (missed + 1, kept + (seen >> i & 1)),
+                false => met += meets.len(),
+            }
+        }
+    }
+    assert!(beams > 1_000 && met > 10_000, "{beams} beams, {met} met");
+    assert!(missed > 1_000 && kept < missed / 2, "{kept} of {missed} boxes are kept that no ray meets");
+}
+
+#[test]
+fn the_image_behind_a_mirror_is_found() {
+    let dice = &mut Dice(7);
+    let (camera, mirror) = ([0.3, 0.2, 2.0], -1.0);
+    let ray = |dice: &mut Dice| {
+        let at = [dice.between(-0.2, 0.2), dice.between(-0.2, 0.2), mirror];
+        let d: [f64; 3] = three(|k| at[k] - camera[k]);
+        Ray::new(at.map(|x| x as f32), [d[0] as f32, d[1] as f32, -d[2] as f32])
+    };
+    let rays: Vec<Ray> = (0..WIDTH * WIDTH).map(|_| ray(dice)).collect();
+    let world = TreeRoot::new(0, &Aabb { min: [-4.0; 3], max: [4.0; 3] });
+    let image = focus::<Watertight>(&packets(&rays), world);
+    let expected = Vec3::new(0.3, 0.2, 2.0 * mirror as f32 - 2.0);
+    let off = image.map(|p| (Vec3::new(p[0], p[1], p[2]) - expected).abs().max_component());
+    assert!(off.is_some_and(|off| off < 1e-4), "{image:?}");
+}
