@@ -10,7 +10,7 @@ pub(super) struct Doubt<L> {
 }
 
 /// Roundings that a component of the way across may have seen; at most twenty are counted, each of at most `size`.
-pub(super) const ROUNDINGS: u32 = 32;
+const ROUNDINGS: u32 = 32;
 
 impl<L: Lane> Doubt<L> {
     /// `size` is the sum of magnitudes that `across` was computed from: each of its components is off by at most `e`, some

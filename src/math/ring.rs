@@ -82,7 +82,8 @@ mod tests {
     fn pairs_tell_signs_only_where_they_are_sure() {
         let told = |pair, size| sign(pair, size, || IBig::from(-7));
         assert_eq!(told([1e-20, 0.0], 1.0), Ordering::Greater);
-        for (pair, size) in [([1e-28, 0.0], 1.0), ([0.0; 2], 1.0), ([1e-210, 0.0], 1e-209), ([1.0, 0.0], f64::NAN)]
+        for (pair, size) in
+            [([1e-28, 0.0], 1.0), ([0.0; 2], 1.0), ([1e-210, 0.0], 1e-209), ([1.0, 0.0], f64::NAN)]
         {
             assert_eq!(told(pair, size), Ordering::Less, "{pair:?} of {size}");
         }

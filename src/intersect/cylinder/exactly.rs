@@ -139,7 +139,8 @@ impl Question {
 
     /// Lengths in one unit, the direction in another: no sign depends on either.
     fn whole_parts(&self) -> Parts<IBig> {
-        let lengths = Unit::of(self.ends.as_flattened().iter().chain(&self.origin).chain([&self.radius]).copied());
+        let lengths =
+            Unit::of(self.ends.as_flattened().iter().chain(&self.origin).chain([&self.radius]).copied());
         let lift = |p: [f64; 3]| p.map(|x| lengths.lift(x));
         let (origin, ends) = (lift(self.origin), self.ends.map(lift));
         let between = |p: &[IBig; 3], q: &[IBig; 3]| std::array::from_fn(|k| &p[k] - &q[k]);

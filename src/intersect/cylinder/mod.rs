@@ -12,7 +12,7 @@
 mod exactly;
 pub mod oracle;
 
-use crate::intersect::doubt::{self, Doubt};
+use crate::intersect::doubt;
 use crate::intersect::{LaneHit, RayLanes};
 use crate::math::{Aabb, Lane, Mask, Real, Vec3, gamma};
 
@@ -76,11 +76,11 @@ fn solve_rounded<L: Lane>(
     let axis = c.to - c.from;
     let f = ray.origin - c.from;
     let (axis2, along_f, along_d) = (axis.length_squared(), f.dot(axis), ray.direction.dot(axis));
-    let side =
-        Side::new(f - axis * (along_f / axis2), ray.direction - axis * (along_d / axis2), c.radius);
+    let side = Side::new(f - axis * (along_f / axis2), ray.direction - axis * (along_d / axis2), c.radius);
     let (within, between) = (side.inside(), between_caps(along_f, along_d, axis2));
-    let open = side.is_open(f, ray.direction)
-        | (side.is_met() & Rims { along_f, along_d, axis2 }.are_close(f, ray.direction, axis, &side, within));
+    let sizes = Sizes { offset2: f.length_squared(), direction2: ray.direction.length_squared() };
+    let rims = Rims { along_f, along_d, axis2 };
+    let open = side.is_open(&sizes) | (side.is_met() & rims.are_close(&sizes, &side, within));
     let chord = settle(open, Chord::of(within, between));
     let (mask, t, on_side) = chord.first_beyond(ray.t_min, c.capped, round);
     let height = (along_f + t * along_d) / axis2;
@@ -132,13 +132,29 @@ impl<L: Lane> Side<L> {
     }
 
     /// Lanes in which rounding could change whether the line meets it, those along the axis among them: what is lost of
-    /// `d` turns it, the more the less of it is across the axis.
+    /// `d` turns it, the more the less of it is across the axis. A way across that is off by `e` changes the discriminant
+    /// by no more than `4 e max(r, |across|)` while that matters. In squares, so that nothing is divided and no root taken;
+    /// NaN counts as open.
     #[inline(always)]
-    fn is_open(&self, offset: Vec3<L>, direction: Vec3<L>) -> L::Mask {
-        let turned = doubt::size(self.f) * (doubt::size(direction) / doubt::size(self.d));
-        let size = (doubt::size(offset) + turned) * L::constant(ROUNDINGS / f64::from(doubt::ROUNDINGS));
-        Doubt::new(self.radius * self.radius, self.across, size).is_open()
+    fn is_open(&self, sizes: &Sizes<L>) -> L::Mask {
+        let (a, f2) = (self.d.length_squared(), self.f.length_squared());
+        let reach2 = self.radius * self.radius + self.across.length_squared();
+        let e2 = sizes.offset2 * a + f2 * sizes.direction2;
+        !(self.discriminant * self.discriminant * a).gt(reach2 * e2 * roundoffs_squared::<L>(32.0))
     }
+}
+
+/// Squared lengths.
+struct Sizes<L> {
+    offset2: L,
+    direction2: L,
+}
+
+/// Of what lengths across the axis, and heights, may be off by.
+#[inline(always)]
+fn roundoffs_squared<L: Lane>(times: f64) -> L {
+    let e = ROUNDINGS * <L::Scalar as Real>::ROUNDOFF;
+    L::constant(times * e * e)
 }
 
 /// Heights along the axis, times its length.
@@ -151,22 +167,17 @@ struct Rims<L> {
 impl<L: Lane> Rims<L> {
     /// Lanes in which the line meets the side so near the height of a cap that rounding could change which comes first. What
     /// a length is off by moves a root by `e r / root`, and its height by that times the speed along the axis; multiplied by
-    /// the root, so that a ray that touches divides nothing by zero. NaN counts as near.
+    /// the root, so that a ray that touches divides nothing by zero, and in squares. NaN counts as near.
     #[inline(always)]
-    fn are_close(
-        &self,
-        offset: Vec3<L>,
-        direction: Vec3<L>,
-        axis: Vec3<L>,
-        side: &Side<L>,
-        Interval { first, last }: Interval<L>,
-    ) -> L::Mask {
+    fn are_close(&self, sizes: &Sizes<L>, side: &Side<L>, at: Interval<L>) -> L::Mask {
         let half = self.axis2 * L::constant(0.5);
         let beside = |t: L| ((self.along_f + t * self.along_d - half).abs() - half).abs();
-        let clear = beside(first).min(beside(last)) * side.root;
-        let reach = doubt::size(offset) + first.abs().max(last.abs()) * doubt::size(direction);
-        let e = reach * L::constant(ROUNDINGS * <L::Scalar as Real>::ROUNDOFF);
-        !clear.gt(e * (doubt::size(axis) * side.root + side.radius * self.along_d.abs()))
+        let clear = beside(at.first).min(beside(at.last));
+        let (root2, last) = (side.root * side.root, at.first.abs().max(at.last.abs()));
+        let e2 = sizes.offset2 + last * last * sizes.direction2;
+        let steepness = side.radius * self.along_d;
+        let moved2 = e2 * (self.axis2 * root2 + steepness * steepness);
+        !(clear * clear * root2).gt(moved2 * roundoffs_squared::<L>(4.0))
     }
 }
 

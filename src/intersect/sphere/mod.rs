@@ -70,8 +70,9 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -
     let (wide_ray, wide, wide_lanes) =
         (ray.widen(), s.widen(), L::widen_mask(lanes & s.radius.gt(L::zero())));
     let settle = |doubt: Doubt<L::Double>| match doubt::is_exact::<L>() {
-        true => doubt
-            .settle(wide_lanes, |i| is_met(&wide_ray.get(i), wide.center.get(i), wide.radius.get(i))),
+        true => {
+            doubt.settle(wide_lanes, |i| is_met(&wide_ray.get(i), wide.center.get(i), wide.radius.get(i)))
+        }
         false => doubt.value,
     };
     let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));

@@ -1,8 +1,8 @@
-//! The fast triangle test: `f32` sorts out what certainly misses, `f64` decides the rest.
+//! The fast triangle test: `f32` decides what is clear, `f64` the rest.
 //!
 //! Plainly: solve `o + t d = v0 + u e1 + v e2` by Cramer's rule and ask `u, v >= 0`, `u + v <= 1`. Departures:
-//! - in `f32` nothing is divided, and the questions are asked with as much slack as their rounding needs, so that what is
-//!   sorted out is missed;
+//! - what `f32` says counts where the ray passes the edges at more than what rounding may amount to, and the triangle is
+//!   neither thin nor seen nearly edge-on; what certainly misses is sorted out without a quotient;
 //! - in `f64` the third weight is a volume of its own over its own edge, not what the others leave of one: with two corners
 //!   nearly the same, one minus the others has no digits;
 //! - volumes that rounding could have made are no hit: the ray lies in the plane, where it meets an edge or nothing;
@@ -23,7 +23,14 @@ pub struct FilteredVolumes;
 /// roundings of each volume and of the sum of three, which also turns its sign.
 const SLACK: f64 = 160.0 * f32::ROUNDOFF;
 
-/// Four times what that is in `f64`, as a share of it.
+/// Of the largest volume, what another may have of the other sign and still be one to look at again.
+const SHARE: f64 = 1.0 / 256.0;
+
+/// Determinant over direction and square of the largest edge, by their largest components, from which on `f32` has digits
+/// enough for `t`.
+const THIN: f64 = 0.06;
+
+/// Four times what the slack is in `f64`, as a share of it.
 const NOISE: f64 = 4.0 * f64::ROUNDOFF / f32::ROUNDOFF;
 
 impl TriangleTest for FilteredVolumes {
@@ -35,23 +42,27 @@ impl TriangleTest for FilteredVolumes {
         ray.direction.abs().max_component() * L::constant(SLACK)
     }
 
+    /// With slack that is a share of the volumes, which needs no sizes: more than rounding takes unless the triangle is a
+    /// thousand times as long as it is wide.
     #[inline(always)]
-    fn may_hit<L: Lane>(ray: &RayLanes<L>, slack: &L, v: [Vec3<L>; 3]) -> L::Mask {
+    fn may_hit<L: Lane>(ray: &RayLanes<L>, _: &L, v: [Vec3<L>; 3]) -> L::Mask {
         let (e1, e2, s) = (v[1] - v[0], v[2] - v[0], ray.origin - v[0]);
-        let (p, q) = (fused_cross(ray.direction, e2), fused_cross(s, e1));
-        let (det, u, v) = (fused_dot(e1, p), fused_dot(s, p), fused_dot(ray.direction, q));
-        let is_back = det.lt(L::zero());
-        let (u, v) = (L::select(is_back, -u, u), L::select(is_back, -v, v));
-        let slack = *slack * reach([e1, e2], s);
-        u.min(v).ge(-slack) & (u + v).le(det.abs() + slack)
+        let p = fused_cross(ray.direction, e2);
+        let (u, v) = (fused_dot(s, p), fused_dot(ray.direction, fused_cross(s, e1)));
+        let w = fused_dot(e1, p) - u - v;
+        // In this order a NaN of the last is what comes out.
+        let (least, most, share) = (u.min(v).min(w), u.max(v).max(w), L::constant(SHARE));
+        let zero = L::zero();
+        most.mul_add_fast(share, least).ge(zero) | least.mul_add_fast(share, most).le(zero)
     }
 
     #[inline(always)]
     fn hit<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, slack: &L, v: [Vec3<L>; 3], _: L) -> LaneHit<L> {
-        let slack = *slack * reach([v[1] - v[0], v[2] - v[0]], ray.origin - v[0]);
-        let hit = solve(&ray.widen(), three(|k| v[k].widen()), slack.widen() * <L::Double as Lane>::constant(NOISE));
-        let (u, one) = (L::narrow(hit.u), L::one());
-        LaneHit { mask: lanes & L::narrow_mask(hit.mask), t: L::narrow(hit.t), u, v: L::narrow(hit.v).min(one - u) }
+        let volumes = Volumes::new(ray, v, *slack);
+        let lanes = lanes & !volumes.surely_missed();
+        let hit = volumes.quotients(lanes);
+        let doubtful = lanes & !volumes.surely_hit();
+        if doubtful.any() { decided(doubtful, ray, v, volumes.slack, hit) } else { hit }
     }
 
     type OneRay<R: Real> = R;
@@ -82,11 +93,70 @@ impl TriangleTest for FilteredVolumes {
     }
 }
 
-/// The largest product of components of an edge with those of an edge or the offset.
-#[inline(always)]
-fn reach<L: Lane>(edges: [Vec3<L>; 2], offset: Vec3<L>) -> L {
-    let edge = edges[0].abs().max(edges[1].abs()).max_component();
-    edge * offset.abs().max_component().max(edge)
+/// The volumes that offset, direction and edges span, with the signs of a triangle seen from its front.
+struct Volumes<L> {
+    det: L,
+    u: L,
+    v: L,
+    t: L,
+    slack: L,
+    /// The least determinant of a triangle that is neither thin nor seen nearly edge-on.
+    least: L,
+}
+
+impl<L: Lane> Volumes<L> {
+    #[inline(always)]
+    fn new(ray: &RayLanes<L>, v: [Vec3<L>; 3], slack: L) -> Self {
+        let (e1, e2, s) = (v[1] - v[0], v[2] - v[0], ray.origin - v[0]);
+        let (p, q) = (fused_cross(ray.direction, e2), fused_cross(s, e1));
+        let det = fused_dot(e1, p);
+        let is_back = det.lt(L::zero());
+        let front = |x: L| L::select(is_back, -x, x);
+        let edge = e1.abs().max(e2.abs()).max_component();
+        let slack = slack * edge;
+        Self {
+            det: det.abs(),
+            u: front(fused_dot(s, p)),
+            v: front(fused_dot(ray.direction, q)),
+            t: front(fused_dot(e2, q)),
+            slack: slack * s.abs().max_component().max(edge),
+            least: slack * edge * L::constant(THIN / SLACK),
+        }
+    }
+
+    #[inline(always)]
+    fn surely_hit(&self) -> L::Mask {
+        let inside = self.u.min(self.v).gt(self.slack) & (self.u + self.v + self.slack).lt(self.det);
+        inside & self.det.gt(self.least)
+    }
+
+    #[inline(always)]
+    fn surely_missed(&self) -> L::Mask {
+        self.u.min(self.v).lt(-self.slack) | (self.u + self.v).gt(self.det + self.slack)
+    }
+
+    #[inline(always)]
+    fn quotients(&self, mask: L::Mask) -> LaneHit<L> {
+        let scale = L::one() / self.det;
+        LaneHit { mask, t: self.t * scale, u: self.u * scale, v: self.v * scale }
+    }
+}
+
+/// With some lanes as `f64` finds them.
+#[inline(never)]
+fn decided<L: Lane>(
+    lanes: L::Mask,
+    ray: &RayLanes<L>,
+    v: [Vec3<L>; 3],
+    slack: L,
+    hit: LaneHit<L>,
+) -> LaneHit<L> {
+    let noise = slack.widen() * <L::Double as Lane>::constant(NOISE);
+    let wide = solve(&ray.widen(), three(|k| v[k].widen()), noise);
+    let pick = |wide: L::Double, kept: L| L::select(lanes, L::narrow(wide), kept);
+    let (u, one) = (pick(wide.u, hit.u), L::one());
+    let mask = hit.mask & (!lanes | L::narrow_mask(wide.mask));
+    LaneHit { mask, t: pick(wide.t, hit.t), u, v: pick(wide.v, hit.v).min(one - u) }
 }
 
 /// Where rays meet triangles. `noise` is what volumes have to exceed together.
