@@ -173,7 +173,7 @@ mod tests {
             steps.push(step);
             true
         });
-        assert_eq!(steps, [Step::Body { row: 0, from_inside: false, total: false }, Step::Out]);
+        assert_eq!(steps, [Step::Body { row: 0, from_inside: true, total: false }, Step::Out]);
     }
 
     const ONE_AFTER_THE_OTHER: [(usize, bool); 4] = [(1, false), (1, true), (0, false), (0, true)];
