@@ -26,7 +26,8 @@ fn a_row_for_each_family_and_tier_with_a_verdict() {
     let table = stdout_of(&["--rays", "300", "--family", "closed-inside,spheres,leaving"]);
     let rows: Vec<Vec<&str>> = table.lines().map(|line| line.split_whitespace().collect()).collect();
     for (family, tier, verdict) in [
-        ("closed-inside", "fast", "measured"),
+        ("closed-inside", "fast", "holds"),
+        ("spheres", "fast", "measured"),
         ("closed-inside", "watertight", "holds"),
         ("spheres", "exact", "holds"),
         ("leaving", "watertight", "holds"),
@@ -63,7 +64,7 @@ fn the_report_is_written_whole() {
     assert_eq!((&report["seed"], &report["rays"]), (&9.into(), &200.into()));
     let family = &report["families"][0];
     assert_eq!(family["tier"], "fast");
-    let rate = family["rates"].as_array().unwrap().iter().find(|rate| rate["what"] == "false hit").unwrap();
+    let rate = family["rates"].as_array().unwrap().iter().find(|rate| rate["what"] == "false miss").unwrap();
     assert!(
         rate["count"].as_u64().unwrap() > 0 && rate["example"].as_str().unwrap().contains("Triangle"),
         "{rate}"

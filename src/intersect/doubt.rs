@@ -22,10 +22,16 @@ impl<L: Lane> Doubt<L> {
         Self { value: r2 - a2, error: e * (reach + reach + e * L::constant(3.0)) + (r2 + a2) * roundings }
     }
 
+    /// Lanes whose sign is uncertain, NaN among them.
+    #[inline(always)]
+    pub(super) fn is_open(&self) -> L::Mask {
+        !self.value.abs().gt(self.error)
+    }
+
     /// The value, with the sign that `is_met` gives to lanes in doubt: zero, or less.
     #[inline(always)]
-    pub(super) fn settle(self, is_met: impl Fn(usize) -> bool) -> L {
-        let doubtful = self.value.abs().le(self.error);
+    pub(super) fn settle(self, lanes: L::Mask, is_met: impl Fn(usize) -> bool) -> L {
+        let doubtful = lanes & self.is_open();
         if doubtful.any() { self.settle_lanes(doubtful.bits(), is_met) } else { self.value }
     }
 

@@ -2,7 +2,7 @@
 
 use wide::{f32x8, f64x8};
 
-use super::triangle::{ExactVolumes, Glimpse, MollerTrumbore, Woop};
+use super::triangle::{ExactVolumes, FilteredVolumes, Glimpse, Woop};
 use super::{LaneHit, RayLanes, cylinder, sphere};
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
 
@@ -167,7 +167,7 @@ pub trait Tier: sealed::Sealed + Copy + Default + Send + Sync + 'static {
     fn below_f32(x: Self::Wide) -> f32x8;
 }
 
-/// `f32` throughout, fused and approximate operations where they pay; may leak at shared edges.
+/// `f32` rays, fused operations, triangles decided in `f64` and curved surfaces in `f32`; may leak at shared edges.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Fast;
 
@@ -204,7 +204,7 @@ macro_rules! tier {
         }
     };
 }
-tier!(Fast, f32, f32x8, MollerTrumbore, Direct, as_is, as_is, as_is);
+tier!(Fast, f32, f32x8, FilteredVolumes, Direct, as_is, as_is, as_is);
 tier!(Watertight, f32, f32x8, Woop, Filtered, as_is, as_is, as_is);
 tier!(Exact, f64, f64x8, ExactVolumes, Filtered, f32x8::narrow, above, below);
 

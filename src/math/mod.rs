@@ -8,14 +8,14 @@ mod expansion;
 mod lane;
 mod lane_scalar;
 mod lane_wide;
-mod pair;
+mod ring;
 mod transform;
 mod vec3;
 
 pub use aabb::Aabb;
 pub(crate) use expansion::{Pair, determinant, determinant_sign, two_sum};
 pub use lane::{BitLane, Lane, Mask, Real};
-pub(crate) use pair::{pair_at_most, pair_cross, pair_dot, pair_product, pairs};
+pub(crate) use ring::{Ring, cross as ring_cross, dot as ring_dot, pairs, sign};
 pub use transform::{Transform, TransformError};
 pub use vec3::{Vec3, fused_cross, fused_dot};
 

@@ -2,7 +2,7 @@
 
 use glam::{DAffine3, DMat3, DVec3};
 
-use super::{Aabb, pair_cross, pair_dot, pairs};
+use super::{Aabb, pairs, ring_cross, ring_dot};
 
 /// An affine map and its inverse.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -113,10 +113,10 @@ fn inverse_of(forward: &DAffine3) -> DAffine3 {
     let m = &forward.matrix3;
     let [a, b, c, t] =
         [m.x_axis, m.y_axis, m.z_axis, forward.translation].map(|column| pairs(column.to_array()));
-    let rows = [pair_cross(&b, &c), pair_cross(&c, &a), pair_cross(&a, &b)];
-    let determinant = pair_dot(&a, &rows[0])[0];
+    let rows = [ring_cross(&b, &c), ring_cross(&c, &a), ring_cross(&a, &b)];
+    let determinant = ring_dot(&a, &rows[0])[0];
     // Zeros of either sign become the positive one.
-    let translation = rows.map(|row| 0.0 - pair_dot(&row, &t)[0] / determinant);
+    let translation = rows.map(|row| 0.0 - ring_dot(&row, &t)[0] / determinant);
     let [x, y, z] = rows.map(|row| DVec3::from(row.map(|entry| entry[0] / determinant + 0.0)));
     DAffine3 { matrix3: DMat3::from_cols(x, y, z).transpose(), translation: translation.into() }
 }

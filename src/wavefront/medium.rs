@@ -30,6 +30,11 @@ pub(super) fn sphere_of(body: u32) -> Option<u32> {
     body.checked_sub(first)
 }
 
+/// The row of a body, not [`NO_BODY`]: of the sphere, or of its material.
+pub(super) fn row_of(body: u32) -> u32 {
+    sphere_of(body).unwrap_or(body - 1)
+}
+
 /// The material row of a body.
 pub(super) fn material_of_body(geometry: &Geometry, body: u32) -> u32 {
     match sphere_of(body) {

@@ -3,7 +3,7 @@
 use bumpalo::Bump;
 
 use super::extend::extend;
-use super::medium::{Media, OUTSIDE, sphere_of};
+use super::medium::{Media, NO_BODY, OUTSIDE, row_of};
 use super::queue::{Column3, PathLanes, PathQueue};
 use super::scatter::scatter;
 use super::surface_queue::SurfaceQueue;
@@ -19,8 +19,9 @@ use crate::scene::Scene;
 pub(crate) enum Step {
     /// Nothing more is met, or nothing comes of it.
     Out,
-    /// A sphere of the scene, seen from inside or not; all of the light is reflected, or the path goes through.
-    Sphere { row: usize, from_inside: bool, total: bool },
+    /// A body of glass, by the row of a sphere or of what else its material, seen from inside or not; all of the light is
+    /// reflected, or the path goes through.
+    Body { row: usize, from_inside: bool, total: bool },
     /// A surface that is passed as if it were not there.
     Passed,
 }
@@ -98,11 +99,11 @@ fn follow<R: Real>(
     let number = walkers[slot as usize].number;
     let mut rays = (0..next.len).filter(|&ray| next.slot[ray] == slot);
     let (first, second) = (rays.next(), rays.next());
-    let met = match (sphere_of(surfaces.body[row]), first) {
+    let met = match (surfaces.body[row], first) {
         (_, None) => Step::Out,
-        (None, _) => Step::Passed,
-        (Some(sphere), _) => Step::Sphere {
-            row: sphere as usize,
+        (NO_BODY, _) => Step::Passed,
+        (body, _) => Step::Body {
+            row: row_of(body) as usize,
             from_inside: surfaces.from_inside[row] != 0,
             total: second.is_none(),
         },
@@ -146,7 +147,7 @@ mod tests {
             [[-5.0, 0.0, 0.0], [1.0, 0.0, 0.0]].map(|v: [f64; 3]| Vec3::splat(v.map(T::Real::from_f64)));
         let mut steps = Vec::new();
         walk::<T>(&scene, &[path], 8, |_, step| {
-            if let Step::Sphere { row, from_inside, .. } = step {
+            if let Step::Body { row, from_inside, .. } = step {
                 steps.push((row, from_inside));
             }
             true
@@ -172,7 +173,7 @@ mod tests {
             steps.push(step);
             true
         });
-        assert_eq!(steps, [Step::Passed, Step::Out]);
+        assert_eq!(steps, [Step::Body { row: 0, from_inside: true, total: false }, Step::Out]);
     }
 
     const ONE_AFTER_THE_OTHER: [(usize, bool); 4] = [(1, false), (1, true), (0, false), (0, true)];

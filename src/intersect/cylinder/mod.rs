@@ -6,11 +6,15 @@
 //! separate tests of side (by height) and caps (by radius) have.
 //! - The side's quadratic uses perpendicular components, as [`super::sphere`] does.
 //! - A ray along the axis, or across it, makes one interval all or nothing instead of dividing by zero.
+//! - In tier `Exact` lanes in which rounding could change whether the chord is there, or whether a cap or the side ends it,
+//!   are decided without rounding ([`exactly`]).
 
+mod exactly;
 pub mod oracle;
 
+use crate::intersect::doubt;
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{Aabb, Lane, Mask, Vec3, gamma};
+use crate::math::{Aabb, Lane, Mask, Real, Vec3, gamma};
 
 /// Cylinders as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -23,6 +27,15 @@ pub struct Lanes<L: Lane> {
     pub radius: L,
     /// Closed by caps, or open at both ends.
     pub capped: L::Mask,
+}
+
+impl<L: Lane> Lanes<L> {
+    /// Lane `i`.
+    fn get(&self, i: usize) -> Lanes<L::Scalar> {
+        let one = |v: Vec3<L>| Vec3::splat(v.get(i));
+        let capped = self.capped.bits() >> i & 1 != 0;
+        Lanes { from: one(self.from), to: one(self.to), radius: self.radius.get(i), capped }
+    }
 }
 
 /// An interval of `t`, empty where `first > last`.
@@ -48,39 +61,124 @@ impl<L: Lane> Interval<L> {
 /// The first point of each cylinder beyond `t_min`, in the number type of the lanes.
 #[inline(always)]
 pub fn solve<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> {
-    solve_rounded(ray, c, |t| t)
+    solve_rounded(ray, c, |t| t, |_, chord| chord)
 }
 
-/// `round` is what becomes of `t` later: the end beyond `t_min` is chosen by the `t` that the caller will see.
+/// `round` is what becomes of `t` later: the end beyond `t_min` is chosen by the `t` that the caller will see. `settle` is
+/// given the lanes in which rounding could change whether the chord is there and what ends it.
 #[inline(always)]
-fn solve_rounded<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>, round: impl Fn(L) -> L) -> LaneHit<L> {
+fn solve_rounded<L: Lane>(
+    ray: &RayLanes<L>,
+    c: &Lanes<L>,
+    round: impl Fn(L) -> L,
+    settle: impl Fn(L::Mask, Chord<L>) -> Chord<L>,
+) -> LaneHit<L> {
     let axis = c.to - c.from;
     let f = ray.origin - c.from;
     let (axis2, along_f, along_d) = (axis.length_squared(), f.dot(axis), ray.direction.dot(axis));
-    let side = inside_side(f - axis * (along_f / axis2), ray.direction - axis * (along_d / axis2), c.radius);
-    let slab = between_caps(along_f, along_d, axis2);
-    let (mask, t, on_side) = first_beyond(ray.t_min, side, slab, c.capped, round);
+    let side = Side::new(f - axis * (along_f / axis2), ray.direction - axis * (along_d / axis2), c.radius);
+    let (within, between) = (side.inside(), between_caps(along_f, along_d, axis2));
+    let sizes = Sizes { offset2: f.length_squared(), direction2: ray.direction.length_squared() };
+    let rims = Rims { along_f, along_d, axis2 };
+    let open = side.is_open(&sizes) | (side.is_met() & rims.are_close(&sizes, &side, within));
+    let chord = settle(open, Chord::of(within, between));
+    let (mask, t, on_side) = chord.first_beyond(ray.t_min, c.capped, round);
     let height = (along_f + t * along_d) / axis2;
     let (zero, half, one) = (L::zero(), L::constant(0.5), L::one());
     let cap = L::select(height.lt(half), one, one + one);
     LaneHit { mask, t, u: L::select(on_side, zero, cap), v: height.clamp(zero, one) }
 }
 
-/// When the ray is inside the infinite cylinder, from the parts of offset and direction across its axis.
+/// A line and an infinite cylinder, from the parts of offset and direction across its axis.
+struct Side<L> {
+    f: Vec3<L>,
+    d: Vec3<L>,
+    radius: L,
+    across: Vec3<L>,
+    discriminant: L,
+    /// `(a discriminant)^1/2` with `a = |d|^2`.
+    root: L,
+}
+
+/// Roundoffs by which lengths across the axis, and heights, may be off: at most forty are counted.
+const ROUNDINGS: f64 = 128.0;
+
+impl<L: Lane> Side<L> {
+    #[inline(always)]
+    fn new(f: Vec3<L>, d: Vec3<L>, radius: L) -> Self {
+        let a = d.length_squared();
+        let across = f - d * (f.dot(d) / a);
+        let discriminant = radius * radius - across.length_squared();
+        Self { f, d, radius, across, discriminant, root: (a * discriminant).sqrt() }
+    }
+
+    #[inline(always)]
+    fn is_met(&self) -> L::Mask {
+        self.discriminant.ge(L::zero())
+    }
+
+    /// When the ray is inside.
+    #[inline(always)]
+    fn inside(&self) -> Interval<L> {
+        let (a, b) = (self.d.length_squared(), self.f.dot(self.d));
+        let q = -(b + self.root.with_sign_of(b));
+        let c = self.f.length_squared() - self.radius * self.radius;
+        let (t0, t1) = (q / a, c / q);
+        // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
+        let crossing = Interval { first: t1.min(t0), last: t1.max(t0) };
+        let meets = Interval::select(self.is_met(), crossing, Interval::all_where(L::Mask::splat(false)));
+        let parallel = Interval::all_where(c.le(L::zero()));
+        Interval::select(a.gt(L::zero()), meets, parallel)
+    }
+
+    /// Lanes in which rounding could change whether the line meets it, those along the axis among them: what is lost of
+    /// `d` turns it, the more the less of it is across the axis. A way across that is off by `e` changes the discriminant
+    /// by no more than `4 e max(r, |across|)` while that matters. In squares, so that nothing is divided and no root taken;
+    /// NaN counts as open.
+    #[inline(always)]
+    fn is_open(&self, sizes: &Sizes<L>) -> L::Mask {
+        let (a, f2) = (self.d.length_squared(), self.f.length_squared());
+        let reach2 = self.radius * self.radius + self.across.length_squared();
+        let e2 = sizes.offset2 * a + f2 * sizes.direction2;
+        !(self.discriminant * self.discriminant * a).gt(reach2 * e2 * roundoffs_squared::<L>(32.0))
+    }
+}
+
+/// Squared lengths.
+struct Sizes<L> {
+    offset2: L,
+    direction2: L,
+}
+
+/// Of what lengths across the axis, and heights, may be off by.
 #[inline(always)]
-fn inside_side<L: Lane>(f: Vec3<L>, d: Vec3<L>, radius: L) -> Interval<L> {
-    let (a, b) = (d.length_squared(), f.dot(d));
-    let across = f - d * (b / a);
-    let discriminant = radius * radius - across.length_squared();
-    let q = -(b + (a * discriminant).sqrt().with_sign_of(b));
-    let c = f.length_squared() - radius * radius;
-    let (t0, t1) = (q / a, c / q);
-    // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
-    let crossing = Interval { first: t1.min(t0), last: t1.max(t0) };
-    let meets =
-        Interval::select(discriminant.ge(L::zero()), crossing, Interval::all_where(L::Mask::splat(false)));
-    let parallel = Interval::all_where(c.le(L::zero()));
-    Interval::select(a.gt(L::zero()), meets, parallel)
+fn roundoffs_squared<L: Lane>(times: f64) -> L {
+    let e = ROUNDINGS * <L::Scalar as Real>::ROUNDOFF;
+    L::constant(times * e * e)
+}
+
+/// Heights along the axis, times its length.
+struct Rims<L> {
+    along_f: L,
+    along_d: L,
+    axis2: L,
+}
+
+impl<L: Lane> Rims<L> {
+    /// Lanes in which the line meets the side so near the height of a cap that rounding could change which comes first. What
+    /// a length is off by moves a root by `e r / root`, and its height by that times the speed along the axis; multiplied by
+    /// the root, so that a ray that touches divides nothing by zero, and in squares. NaN counts as near.
+    #[inline(always)]
+    fn are_close(&self, sizes: &Sizes<L>, side: &Side<L>, at: Interval<L>) -> L::Mask {
+        let half = self.axis2 * L::constant(0.5);
+        let beside = |t: L| ((self.along_f + t * self.along_d - half).abs() - half).abs();
+        let clear = beside(at.first).min(beside(at.last));
+        let (root2, last) = (side.root * side.root, at.first.abs().max(at.last.abs()));
+        let e2 = sizes.offset2 + last * last * sizes.direction2;
+        let steepness = side.radius * self.along_d;
+        let moved2 = e2 * (self.axis2 * root2 + steepness * steepness);
+        !(clear * clear * root2).gt(moved2 * roundoffs_squared::<L>(4.0))
+    }
 }
 
 /// When the ray is between the planes of the caps.
@@ -93,26 +191,58 @@ fn between_caps<L: Lane>(along_f: L, along_d: L, axis2: L) -> Interval<L> {
     Interval::select(along_d.eq(zero), parallel, crossing)
 }
 
-/// The first boundary beyond `t_min`: `(hit, t, on the side rather than a cap)`.
-#[inline(always)]
-fn first_beyond<L: Lane>(
-    t_min: L,
-    side: Interval<L>,
-    slab: Interval<L>,
-    capped: L::Mask,
-    round: impl Fn(L) -> L,
-) -> (L::Mask, L, L::Mask) {
-    let (first, last) = (side.first.max(slab.first), side.last.min(slab.last));
-    let inside = first.le(last);
-    let (first, last) = (round(first), round(last));
-    let enter_on_side = side.first.ge(slab.first);
-    let leave_on_side = side.last.le(slab.last);
-    // An open cylinder has no surface where the ray enters or leaves through a cap.
-    let enters = first.gt(t_min) & (capped | enter_on_side);
-    let leaves = last.gt(t_min) & (capped | leave_on_side);
-    let mask = inside & (enters | leaves);
-    let on_side = (enters & enter_on_side) | (!enters & leave_on_side);
-    (mask, L::select(enters, first, last), on_side)
+/// The part of a line inside a capped cylinder.
+#[derive(Clone, Copy, Debug)]
+struct Chord<L: Lane> {
+    first: L,
+    last: L,
+    /// Empty elsewhere.
+    inside: L::Mask,
+    enters_on_side: L::Mask,
+    leaves_on_side: L::Mask,
+}
+
+impl<L: Lane> Chord<L> {
+    #[inline(always)]
+    fn of(side: Interval<L>, slab: Interval<L>) -> Self {
+        let (first, last) = (side.first.max(slab.first), side.last.min(slab.last));
+        Self {
+            first,
+            last,
+            inside: first.le(last),
+            enters_on_side: side.first.ge(slab.first),
+            leaves_on_side: side.last.le(slab.last),
+        }
+    }
+
+    /// The first boundary beyond `t_min`: `(hit, t, on the side rather than a cap)`.
+    #[inline(always)]
+    fn first_beyond(self, t_min: L, capped: L::Mask, round: impl Fn(L) -> L) -> (L::Mask, L, L::Mask) {
+        let (first, last) = (round(self.first), round(self.last));
+        // An open cylinder has no surface where the ray enters or leaves through a cap.
+        let enters = first.gt(t_min) & (capped | self.enters_on_side);
+        let leaves = last.gt(t_min) & (capped | self.leaves_on_side);
+        let on_side = (enters & self.enters_on_side) | (!enters & self.leaves_on_side);
+        (self.inside & (enters | leaves), L::select(enters, first, last), on_side)
+    }
+
+    /// With some lanes as exact arithmetic finds them.
+    #[cold]
+    fn settled(self, lanes: u32, chord: impl Fn(usize) -> Option<exactly::Chord>) -> Self {
+        (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0).fold(self, |all, i| {
+            let here = L::Mask::from_bits(1 << i);
+            let Some(chord) = chord(i) else { return Self { inside: all.inside & !here, ..all } };
+            let real = |t: f64| L::constant(t);
+            let set = |mask: L::Mask, value: bool| if value { mask | here } else { mask & !here };
+            Self {
+                first: L::select(here, real(chord.first), all.first),
+                last: L::select(here, real(chord.last), all.last),
+                inside: all.inside | here,
+                enters_on_side: set(all.enters_on_side, chord.on_side[0]),
+                leaves_on_side: set(all.leaves_on_side, chord.on_side[1]),
+            }
+        })
+    }
 }
 
 /// The same in `f64`, for the lanes that [`may_hit`].
@@ -124,7 +254,16 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &Lanes<L>) -
         radius: c.radius.widen(),
         capped: L::widen_mask(c.capped),
     };
-    let mut hit = LaneHit::narrow(solve_rounded(&ray.widen(), &wide, |t| L::narrow(t).widen()));
+    // Free lanes hold NaN, of which nothing is asked.
+    let (wide_ray, wide_lanes) = (ray.widen(), L::widen_mask(lanes & c.radius.gt(L::zero())));
+    let settle = |open: <L::Double as Lane>::Mask, chord: Chord<L::Double>| {
+        let open = open & wide_lanes;
+        if !doubt::is_exact::<L>() || !open.any() {
+            return chord;
+        }
+        chord.settled(open.bits(), |i| exactly::chord(&wide_ray.get(i), &wide.get(i)))
+    };
+    let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
     hit.mask = hit.mask & lanes;
     hit
 }

@@ -5,7 +5,7 @@ use super::{Lanes, solve};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
 use crate::intersect::tier::Filtered;
-use crate::intersect::{Curved, LaneHit, RayLanes};
+use crate::intersect::{Curved, LaneHit, RayLanes, oracle};
 use crate::math::{Real, Vec3};
 
 type Solve = fn(&RayLanes<f32>, &Lanes<f32>) -> LaneHit<f32>;
@@ -249,4 +249,85 @@ fn continuing_from_the_first_hit_finds_the_second() {
         let reached = f64::from(second.t) > 0.5 * (near + far);
         assert!(second.mask && reached, "{first} then {} of {near} {far}", second.t);
     }
+}
+
+/// Found by `verify`: a wire that `f64` alone says is met, by rounding of its far ends.
+#[test]
+fn the_exact_tier_misses_a_wire_that_the_ray_passes() {
+    let end = [358222.06f32, 92356.97, -336373.56].map(f64::from);
+    let ends = [Vec3::splat(end), Vec3::splat(end.map(|x| -x))];
+    let wire = Lanes { from: ends[0], to: ends[1], radius: f64::from(0.001f32), capped: true };
+    let r = ray(
+        [0.5504746f32, 0.094409086, 0.82870597].map(f64::from),
+        [-1.102265f32, -0.18702921, -1.658322].map(f64::from),
+    );
+    assert!(!exact::cylinder(&r, ends, wire.radius, 0.0));
+    assert!(solve(&r, &wire).mask, "f64 alone is wrong here, or the case tells nothing");
+    assert!(!Filtered::cylinder(&r, &wire).mask, "made a hit of a wire that is passed");
+}
+
+/// Hit or miss of each line is that of exact arithmetic, and `t` as well; and `f64` alone gets some wrong.
+fn assert_decided(name: &str, case: fn(&mut Dice, &Lanes<f64>) -> [Vec3<f64>; 2]) {
+    let mut dice = Dice(45);
+    let mut counts = [0; 3];
+    for _ in 0..4_000 {
+        let c = any_cylinder(&mut dice);
+        let c = Lanes { from: c.from.widen(), to: c.to.widen(), radius: c.radius.into(), capped: true };
+        let [origin, direction] = case(&mut dice, &c);
+        let r = line(origin.get(0), direction.get(0));
+        let (from, to, radius, capped) = (c.from.get(0), c.to.get(0), c.radius, true);
+        let solid = oracle::Shape::Cylinder(oracle::Cylinder { from, to, radius, capped });
+        let line = oracle::Line { origin: origin.get(0), direction: direction.get(0) };
+        let [want, last] = oracle::surfaces(&line, &solid);
+        counts[usize::from(want.is_some())] += 1;
+        counts[2] += usize::from(solve(&r, &c).mask != want.is_some());
+        let got = Filtered::cylinder(&r, &c);
+        assert_eq!(got.mask, want.is_some(), "{name} decided by rounding: {c:?} by {r:?}");
+        if let (Some(want), Some(last)) = (want, last) {
+            let reach = want.abs().max(last.abs());
+            assert!((got.t - want).abs() <= 1e-7 * reach, "{name}: {} for {want} of {c:?} by {r:?}", got.t);
+        }
+    }
+    println!("cylinder {name}: misses, hits, and those that f64 gets wrong: {counts:?}");
+    assert!(counts[0] > 100 && counts[1] > 100 && counts[2] > 20, "{name}: {counts:?}");
+}
+
+fn frame(dice: &mut Dice, c: &Lanes<f64>) -> [Vec3<f64>; 2] {
+    let axis = (c.to - c.from).normalize();
+    [axis, axis.cross(Vec3::splat(dice.heading())).normalize()]
+}
+
+/// Within 1e-10 radii of tangency, from up to 1e6 radii away.
+#[test]
+fn the_exact_tier_decides_tangents_without_rounding() {
+    assert_decided("tangents", |dice, c| {
+        let [axis, aside] = frame(dice, c);
+        let touch =
+            c.from + (c.to - c.from) * 0.5 + aside * (c.radius * (1.0 + dice.magnitude(-16.0, -10.0)));
+        let along = (axis.cross(aside) + axis * dice.between(-1.0, 1.0)).normalize();
+        [touch - along * (c.radius * dice.magnitude(0.0, 6.0).abs()), along]
+    });
+}
+
+/// Within 1e-12 of a rim, most of them skew to it.
+#[test]
+fn the_exact_tier_decides_rims_without_rounding() {
+    assert_decided("rims", |dice, c| {
+        let [axis, aside] = frame(dice, c);
+        let off = |dice: &mut Dice| c.radius * dice.magnitude(-17.0, -12.0);
+        let rim = [c.from, c.to][dice.below(2)] + aside * (c.radius + off(dice)) + axis * off(dice);
+        let along = Vec3::<f64>::splat(dice.heading());
+        [rim - along * (c.radius * dice.magnitude(-1.0, 2.0).abs()), along]
+    });
+}
+
+/// With the direction the axis itself, or turned by less than `f64` tells: the formula for a skew line means nothing there.
+#[test]
+fn the_exact_tier_decides_lines_along_the_axis_without_rounding() {
+    assert_decided("lines along the axis", |dice, c| {
+        let [axis, aside] = frame(dice, c);
+        let start = c.from - axis * c.radius + aside * (c.radius * (1.0 + dice.magnitude(-18.0, -14.0)));
+        let tilt = [0.0, dice.magnitude(-18.0, -12.0)][dice.below(2)];
+        [start, (c.to - c.from) + Vec3::splat(dice.heading()) * (tilt * c.radius)]
+    });
 }

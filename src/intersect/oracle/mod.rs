@@ -6,7 +6,7 @@
 
 mod curved;
 mod flat;
-mod number;
+pub(super) mod number;
 mod scene;
 mod shape;
 #[cfg(test)]

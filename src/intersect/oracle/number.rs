@@ -15,15 +15,15 @@ fn parts(x: f64) -> Option<(u64, i32)> {
 
 /// A power of two, of which all numbers of a question are multiples.
 #[derive(Clone, Copy)]
-pub(super) struct Unit(i32);
+pub(in crate::intersect) struct Unit(i32);
 
 impl Unit {
     /// The largest unit for these numbers, which keeps the whole numbers small.
-    pub(super) fn of(numbers: impl IntoIterator<Item = f64>) -> Self {
+    pub(in crate::intersect) fn of(numbers: impl IntoIterator<Item = f64>) -> Self {
         Self(numbers.into_iter().filter_map(|x| Some(parts(x)?.1)).min().unwrap_or(0))
     }
     /// How often the unit goes into the number.
-    pub(super) fn lift(self, x: f64) -> IBig {
+    pub(in crate::intersect) fn lift(self, x: f64) -> IBig {
         let Some((mantissa, exponent)) = parts(x) else { return IBig::ZERO };
         let magnitude = IBig::from(mantissa) << (exponent - self.0) as usize;
         if x < 0.0 { -magnitude } else { magnitude }

@@ -11,10 +11,10 @@
 pub mod oracle;
 
 use crate::intersect::doubt::{self, Doubt};
+use crate::intersect::oracle::number::Unit;
 use crate::intersect::{LaneHit, RayLanes};
 use crate::math::{
-    Aabb, Lane, Vec3, fused_cross, fused_dot, gamma, pair_at_most, pair_cross, pair_dot, pair_product, pairs,
-    two_sum,
+    Aabb, Lane, Ring, Vec3, fused_cross, fused_dot, gamma, pairs, ring_cross, ring_dot, sign, two_sum,
 };
 
 /// Spheres as lanes.
@@ -66,9 +66,13 @@ fn solve_rounded<L: Lane>(
 /// The same in `f64`, for the lanes that [`may_hit`].
 #[inline(always)]
 pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
-    let (wide_ray, wide) = (ray.widen(), s.widen());
+    // Free lanes hold NaN, of which nothing is asked.
+    let (wide_ray, wide, wide_lanes) =
+        (ray.widen(), s.widen(), L::widen_mask(lanes & s.radius.gt(L::zero())));
     let settle = |doubt: Doubt<L::Double>| match doubt::is_exact::<L>() {
-        true => doubt.settle(|i| is_met(&wide_ray.get(i), wide.center.get(i), wide.radius.get(i))),
+        true => {
+            doubt.settle(wide_lanes, |i| is_met(&wide_ray.get(i), wide.center.get(i), wide.radius.get(i)))
+        }
         false => doubt.value,
     };
     let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
@@ -76,13 +80,24 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -
     hit
 }
 
-/// Whether the line meets the sphere, in twice the digits: `|f x d|^2 <= r^2 |d|^2`.
+/// Whether the line meets the sphere, exactly; NaN and infinities meet nothing.
 fn is_met(ray: &RayLanes<f64>, center: [f64; 3], radius: f64) -> bool {
-    let (origin, d) = (ray.origin.get(0), pairs(ray.direction.get(0)));
-    let f = std::array::from_fn(|k| two_sum(origin[k], -center[k]));
-    let n = pair_cross(&f, &d);
-    let r = [radius, 0.0];
-    pair_at_most(pair_dot(&n, &n), pair_product(pair_product(r, r), pair_dot(&d, &d)))
+    let (origin, d) = (ray.origin.get(0), ray.direction.get(0));
+    let f: [_; 3] = std::array::from_fn(|k| two_sum(origin[k], -center[k]));
+    let size = (doubt::size(ray.direction) * (f.iter().map(|x| x[0].abs()).sum::<f64>() + radius)).powi(2);
+    size.is_finite()
+        && sign(inside(&f, &pairs(d), &[radius, 0.0]), size, || {
+            let unit = Unit::of(origin.into_iter().chain(center).chain([radius]));
+            let f = std::array::from_fn(|k| unit.lift(origin[k]) - unit.lift(center[k]));
+            inside(&f, &d.map(|x| Unit::of(d).lift(x)), &unit.lift(radius))
+        })
+        .is_ge()
+}
+
+/// `r^2 |d|^2 - |f x d|^2`: what the squares of radius and distance leave, times that of the direction's length.
+fn inside<N: Ring>(f: &[N; 3], d: &[N; 3], radius: &N) -> N {
+    let n = ring_cross(f, d);
+    radius.squared().times(&ring_dot(d, d)).minus(&ring_dot(&n, &n))
 }
 
 /// False only where the sphere is certainly missed. Written with `not greater`, so that overflow, underflow and NaN

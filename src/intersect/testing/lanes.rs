@@ -5,7 +5,7 @@ use wide::{f32x8, f64x8};
 
 use crate::intersect::aabb::{CullRay, OwnBox};
 use crate::intersect::tier::{Direct, Filtered};
-use crate::intersect::triangle::{ExactVolumes, MollerTrumbore, Woop};
+use crate::intersect::triangle::{ExactVolumes, FilteredVolumes, MollerTrumbore, Woop};
 use crate::intersect::{Curved, LaneHit, RayLanes, TriangleTest, cylinder, plane, sphere};
 use crate::math::{Lane, Mask, Real, Vec3};
 
@@ -133,6 +133,7 @@ macro_rules! battery {
 }
 battery!(
     moller_trumbore: MollerTrumbore,
+    filtered_volumes: FilteredVolumes,
     woop: Woop,
     exact_volumes: ExactVolumes,
     direct_sphere: Sphere<Direct>,

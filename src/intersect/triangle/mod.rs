@@ -1,6 +1,7 @@
 //! Ray against triangle.
 
 mod exact;
+mod filtered;
 mod glimpse;
 mod moller_trumbore;
 mod near;
@@ -8,6 +9,7 @@ pub mod oracle;
 mod woop;
 
 pub use exact::ExactVolumes;
+pub use filtered::FilteredVolumes;
 pub use glimpse::Glimpse;
 pub use moller_trumbore::MollerTrumbore;
 pub use woop::Woop;

@@ -17,25 +17,25 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "rims",
         about: "within 1e-6 of the rims of cylinders",
-        promise: Promise::Cylinders,
+        promise: Promise::Grazing,
         make: Make::Rays(rims),
     },
     Family {
         name: "wires",
         about: "cylinders 1e6 long and 1e-3 thick",
-        promise: Promise::Cylinders,
+        promise: Promise::Grazing,
         make: Make::Rays(wires),
     },
     Family {
         name: "coins",
         about: "cylinders 1e-3 long and 1e6 thick",
-        promise: Promise::Cylinders,
+        promise: Promise::Grazing,
         make: Make::Rays(coins),
     },
     Family {
         name: "along-axes",
         about: "along the axes of cylinders, but for rounding or a tiny angle, and in the planes of their caps",
-        promise: Promise::Cylinders,
+        promise: Promise::Grazing,
         make: Make::Rays(along_axes),
     },
 ];

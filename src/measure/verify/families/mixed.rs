@@ -24,8 +24,14 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "lengths",
         about: "directions of length 1e-20 to 1e20",
-        promise: Promise::Cylinders,
+        promise: Promise::Lengths,
         make: Make::Rays(lengths),
+    },
+    Family {
+        name: "moderate-lengths",
+        about: "directions of length 1e-6 to 1e6",
+        promise: Promise::Cylinders,
+        make: Make::Rays(moderate_lengths),
     },
     Family {
         name: "odd-lengths",
@@ -112,6 +118,10 @@ fn of_length(dice: &mut Dice, length: fn(&mut Dice) -> f64) -> Trial {
 
 fn lengths(dice: &mut Dice) -> Trial {
     of_length(dice, |dice| dice.magnitude(-20.0, 20.0).abs())
+}
+
+fn moderate_lengths(dice: &mut Dice) -> Trial {
+    of_length(dice, |dice| dice.magnitude(-6.0, 6.0).abs())
 }
 
 fn odd_lengths(dice: &mut Dice) -> Trial {

@@ -37,6 +37,15 @@ pub(super) const FAMILIES: &[Family] = &[
         make: Make::Walks(PATHS, [glass::chain::<Fast>, glass::chain::<Watertight>, glass::chain::<Exact>]),
     },
     Family {
+        name: "glass-solids",
+        about: "the same through closed boxes of triangles, or cylinders met at their caps or at their sides",
+        promise: Promise::Glass,
+        make: Make::Walks(
+            PATHS,
+            [glass::solids::<Fast>, glass::solids::<Watertight>, glass::solids::<Exact>],
+        ),
+    },
+    Family {
         name: "glass-touching",
         about: "the same where the spheres touch, so that gaps are thinner than any roundoff",
         promise: Promise::Glass,

@@ -14,27 +14,42 @@ pub(super) const FAMILIES: &[Family] = &[
         make: Make::Rays(plain),
     },
     Family {
+        name: "moderate-spheres",
+        about: "the same with radii of 1e-6 to 1e6",
+        promise: Promise::ModerateSpheres,
+        make: Make::Rays(moderate),
+    },
+    Family {
         name: "tangent",
         about: "rays that graze spheres and cylinders to within some roundoffs",
-        promise: Promise::Cylinders,
+        promise: Promise::Grazing,
         make: Make::Rays(tangent),
     },
     Family {
         name: "ground",
         about: "a ground sphere of radius 1e6 seen from 1e-3 to 1e3 above it",
-        promise: Promise::Spheres,
+        promise: Promise::Ground,
         make: Make::Rays(ground),
     },
     Family {
         name: "touching",
         about: "spheres that touch, share a centre or are the same, through the points where they touch",
-        promise: Promise::Spheres,
+        promise: Promise::Ground,
         make: Make::Rays(touching),
     },
 ];
 
 fn plain(dice: &mut Dice) -> Trial {
     let radius = dice.magnitude(-30.0, 30.0).abs();
+    near_and_far(dice, radius)
+}
+
+fn moderate(dice: &mut Dice) -> Trial {
+    let radius = dice.magnitude(-6.0, 6.0).abs();
+    near_and_far(dice, radius)
+}
+
+fn near_and_far(dice: &mut Dice, radius: f64) -> Trial {
     let center = dice.point().map(|x| 10.0 * radius * x);
     let shape = Shape::Sphere { center: rounded(center), radius: radius as f32 };
     trial(vec![shape], |_| {

@@ -37,7 +37,7 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "on-faces",
         about: "from points on faces, edges and vertices of triangles",
-        promise: Promise::Triangles,
+        promise: Promise::Starting,
         make: Make::Rays(on_faces),
     },
     Family {

@@ -1,0 +1,159 @@
+//! The fast triangle test: `f32` decides what is clear, `f64` the rest.
+//!
+//! Plainly: solve `o + t d = v0 + u e1 + v e2` by Cramer's rule and ask `u, v >= 0`, `u + v <= 1`. Departures:
+//! - what certainly misses is sorted out without a quotient: some volume has the other sign than the largest, and is not
+//!   small beside it;
+//! - what `f32` says of the others counts where no volume is small beside the largest, nor the determinant beside direction
+//!   and edges, as it is for thin triangles and those seen edge-on: elsewhere cancellation leaves too few digits;
+//! - in `f64` the third weight is a volume of its own over its own edge, not what the others leave of one: with two corners
+//!   nearly the same, one minus the others has no digits;
+//! - volumes that rounding could have made are no hit: the ray lies in the plane, where it meets an edge or nothing;
+//! - `t` is confined to where the corners lie along the ray, since a plane seen nearly edge-on is met anywhere.
+//!
+//! A ray at an edge may still be lost between two triangles, since each rounds volumes of its own.
+//!
+//! **Source:** Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
+
+use crate::intersect::{LaneHit, RayLanes, TriangleTest};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, fused_cross, fused_dot, three};
+
+/// See the module.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct FilteredVolumes;
+
+/// Of the largest volume, what another may have and be small: more than rounding makes of it up to a thousand edges away.
+const SMALL: f64 = 1.0 / 1024.0;
+
+/// Least share, squared, that the determinant has of the product of direction and edges for `f32` to have digits enough.
+const THIN2: f64 = 1.0 / 256.0;
+
+/// What the determinant has to exceed in `f64`, as a share of the largest components of what it is made of: four times what
+/// the roundings of its volumes may amount to, at most forty of each.
+const NOISE: f64 = 640.0 * f64::ROUNDOFF;
+
+impl TriangleTest for FilteredVolumes {
+    /// The squared length of the direction, times that of a thin triangle.
+    type Prepared<L: Lane> = L;
+
+    #[inline(always)]
+    fn prepare<L: Lane>(ray: &RayLanes<L>) -> L {
+        fused_dot(ray.direction, ray.direction) * L::constant(THIN2)
+    }
+
+    #[inline(always)]
+    fn may_hit<L: Lane>(ray: &RayLanes<L>, thin2: &L, v: [Vec3<L>; 3]) -> L::Mask {
+        Volumes::new(ray, *thin2, v).may_hit()
+    }
+
+    #[inline(always)]
+    fn hit<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, thin2: &L, v: [Vec3<L>; 3], _: L) -> LaneHit<L> {
+        let volumes = Volumes::new(ray, *thin2, v);
+        let hit = volumes.quotients(lanes);
+        let doubtful = lanes & !volumes.are_clear();
+        if doubtful.any() { decided(doubtful, ray, v, hit) } else { hit }
+    }
+
+    type OneRay<R: Real> = ();
+
+    #[inline(always)]
+    fn prepare_one<R: Real>(_: &RayLanes<R>) {}
+
+    #[inline(always)]
+    fn one_of<L: Lane>(_: &RayLanes<L::Scalar>, _: &L, _: usize) {}
+
+    #[inline(always)]
+    fn candidates<L: Lane>(ray: &RayLanes<L::Scalar>, _: &(), corners: &[[[f32; WIDTH]; 3]; 3]) -> u32 {
+        let corners = three(|v| Vec3::<L>::load_f32(&corners[v]));
+        Volumes::new(&RayLanes::splat(ray), L::zero(), corners).may_hit().bits()
+    }
+
+    #[inline(always)]
+    fn test_candidates<L: Lane>(ray: &RayLanes<L>, vertices: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
+        Self::hit(L::Mask::splat(true), ray, &Self::prepare(ray), vertices, limit)
+    }
+}
+
+/// The volumes that offset, direction and edges span.
+struct Volumes<L> {
+    det: L,
+    u: L,
+    v: L,
+    /// `t` times the determinant.
+    t: L,
+    /// Squared determinant below which the triangle is thin, or seen nearly edge-on.
+    thin2: L,
+}
+
+impl<L: Lane> Volumes<L> {
+    #[inline(always)]
+    fn new(ray: &RayLanes<L>, thin2: L, v: [Vec3<L>; 3]) -> Self {
+        let (e1, e2, s) = (v[1] - v[0], v[2] - v[0], ray.origin - v[0]);
+        let (p, q) = (fused_cross(ray.direction, e2), fused_cross(s, e1));
+        Self {
+            det: fused_dot(e1, p),
+            u: fused_dot(s, p),
+            v: fused_dot(ray.direction, q),
+            t: fused_dot(e2, q),
+            thin2: thin2 * (fused_dot(e1, e1) * fused_dot(e2, e2)),
+        }
+    }
+
+    /// The least and the largest of the three that make the determinant: NaN if any is.
+    #[inline(always)]
+    fn range(&self) -> [L; 2] {
+        let w = self.det - self.u - self.v;
+        [self.u.min(self.v).min(w), self.u.max(self.v).max(w)]
+    }
+
+    #[inline(always)]
+    fn may_hit(&self) -> L::Mask {
+        let ([least, most], small, zero) = (self.range(), L::constant(SMALL), L::zero());
+        most.mul_add_fast(small, least).ge(zero) | least.mul_add_fast(small, most).le(zero)
+    }
+
+    /// Lanes of [`Volumes::may_hit`] that `f32` alone is sure to hit, and whose `t` it knows.
+    #[inline(always)]
+    fn are_clear(&self) -> L::Mask {
+        let ([least, most], small) = (self.range(), L::constant(SMALL));
+        let zero = L::zero();
+        let is_front = most.gt(zero) & least.gt(most * small);
+        let is_back = least.lt(zero) & most.lt(least * small);
+        (is_front | is_back) & (self.det * self.det).gt(self.thin2)
+    }
+
+    #[inline(always)]
+    fn quotients(&self, mask: L::Mask) -> LaneHit<L> {
+        let scale = L::one() / self.det;
+        LaneHit { mask, t: self.t * scale, u: self.u * scale, v: self.v * scale }
+    }
+}
+
+/// With some lanes as `f64` finds them.
+#[inline(never)]
+fn decided<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, v: [Vec3<L>; 3], hit: LaneHit<L>) -> LaneHit<L> {
+    let wide = solve(&ray.widen(), three(|k| v[k].widen()));
+    let pick = |wide: L::Double, kept: L| L::select(lanes, L::narrow(wide), kept);
+    let (u, one) = (pick(wide.u, hit.u), L::one());
+    let mask = hit.mask & (!lanes | L::narrow_mask(wide.mask));
+    LaneHit { mask, t: pick(wide.t, hit.t), u, v: pick(wide.v, hit.v).min(one - u) }
+}
+
+/// Where rays meet triangles, in `f64`.
+#[inline(always)]
+fn solve<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> LaneHit<L> {
+    let d = ray.direction;
+    let (e1, e2, s) = (v[1] - v[0], v[2] - v[0], ray.origin - v[0]);
+    let q = fused_cross(s, e1);
+    let (at_1, at_2) = (fused_dot(s, fused_cross(d, e2)), fused_dot(d, q));
+    let at_0 = fused_dot(d, fused_cross(ray.origin - v[1], v[2] - v[1]));
+    let (zero, det) = (L::zero(), (at_0 + at_1) + at_2);
+    let same_side = at_0.min(at_1).min(at_2).ge(zero) | at_0.max(at_1).max(at_2).le(zero);
+    let edge = e1.abs().max(e2.abs()).max_component();
+    let size = d.abs().max_component() * edge * s.abs().max_component().max(edge);
+    let scale = L::one() / det;
+    let per_length = L::one() / fused_dot(d, d);
+    let [a, b, c] = three(|k| fused_dot(v[k] - ray.origin, d) * per_length);
+    let t = (fused_dot(e2, q) * scale).clamp(a.min(b).min(c), a.max(b).max(c));
+    let mask = same_side & det.abs().gt(size * L::constant(NOISE));
+    LaneHit { mask, t, u: at_1 * scale, v: at_2 * scale }
+}
