@@ -25,7 +25,7 @@ pub(super) struct Chord {
     pub(super) on_side: [bool; 2],
 }
 
-/// The chord of a line and a cylinder, decided without rounding; none for NaN and infinities.
+/// The chord of a line and a cylinder, decided without rounding; none for NaN, infinities and rays that go nowhere.
 pub(super) fn chord(ray: &RayLanes<f64>, cylinder: &Lanes<f64>) -> Option<Chord> {
     let question = Question::new(ray, cylinder)?;
     let across = question.sign(Form::Across);
@@ -108,6 +108,9 @@ struct Question {
 impl Question {
     fn new(ray: &RayLanes<f64>, c: &Lanes<f64>) -> Option<Self> {
         let (origin, direction) = (ray.origin.get(0), ray.direction.get(0));
+        if direction == [0.0; 3] {
+            return None;
+        }
         let (ends, radius) = ([c.from.get(0), c.to.get(0)], c.radius);
         let between = |p: [f64; 3], q: [f64; 3]| std::array::from_fn(|k| two_sum(p[k], -q[k]));
         let axis = between(ends[1], ends[0]);

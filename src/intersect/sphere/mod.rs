@@ -80,12 +80,13 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -
     hit
 }
 
-/// Whether the line meets the sphere, exactly; NaN and infinities meet nothing.
+/// Whether the line meets the sphere, exactly; NaN, infinities and rays that go nowhere meet nothing.
 fn is_met(ray: &RayLanes<f64>, center: [f64; 3], radius: f64) -> bool {
     let (origin, d) = (ray.origin.get(0), ray.direction.get(0));
     let f: [_; 3] = std::array::from_fn(|k| two_sum(origin[k], -center[k]));
     let size = (doubt::size(ray.direction) * (f.iter().map(|x| x[0].abs()).sum::<f64>() + radius)).powi(2);
     size.is_finite()
+        && d != [0.0; 3]
         && sign(inside(&f, &pairs(d), &[radius, 0.0]), size, || {
             let unit = Unit::of(origin.into_iter().chain(center).chain([radius]));
             let f = std::array::from_fn(|k| unit.lift(origin[k]) - unit.lift(center[k]));
