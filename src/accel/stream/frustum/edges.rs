@@ -14,7 +14,7 @@ use crate::math::{Lane, Mask, Vec3, fused_cross, fused_dot, three};
 pub(in super::super) struct Edges {
     pub(super) normal: [Vec3<f32x8>; 3],
     pub(super) pad: f32x8,
-    /// Greatest `z`.
+    /// Greatest `z`, either way.
     pub(super) farthest: f32x8,
     /// Six times the volume between the apex and the triangle: `z` is this over `sum of normal . (a, b, 1)`.
     pub(super) volume: f32x8,
@@ -28,7 +28,7 @@ impl Edges {
         let size = a.abs().max(b.abs()).max(c.abs());
         let across = Lane::max(size.x, size.y) + spread * size.z;
         let normal = [fused_cross(b, c), fused_cross(c, a), fused_cross(a, b)];
-        Self { normal, pad: pad * across, farthest: a.z.max(b.z).max(c.z), volume: fused_dot(normal[0], a) }
+        Self { normal, pad: pad * across, farthest: size.z, volume: fused_dot(normal[0], a) }
     }
 
     /// Lanes where not all rays pass on the outer side of one edge, and not all meet the plane of the triangle beyond their
@@ -49,7 +49,7 @@ impl Edges {
         let greatest_of_least = r0.0.max(r1.0).max(r2.0);
         let missed = (front & least_of_greatest.lt(-pad)) | (back & greatest_of_least.gt(pad));
         // The volume is off by less than the pad at the farthest corner.
-        let slack = pad * self.farthest.abs();
+        let slack = pad * self.farthest;
         let beyond = (front & (self.volume - slack).gt(reach * (whole.1 + pad)))
             | (back & (-self.volume - slack).gt(reach * (pad - whole.0)));
         (!(missed | beyond)).bits()

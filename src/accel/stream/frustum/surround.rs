@@ -22,10 +22,10 @@ const SIDE_ROUNDOFFS: f64 = 192.0;
 /// test as here; an edge function is the sum of two products of two such; and twice that.
 const EDGE_ROUNDOFFS: f64 = 128.0;
 
-/// Roundings on the way from where rays start back to an apex behind them are within the slack of both.
-///
-/// What rays pass by such an apex counts so many times in edge functions: the four of above, and a quarter more.
-const EDGE_STRAYS: f32 = 5.0;
+/// What rays pass by an apex behind them counts so many times in edge functions: four for those, and for six times the volume
+/// between apex and triangle, which it changes by its product with the triangle's area vector, sixteen; and a quarter more.
+/// Roundings on the way from where rays start back to the apex are within the slack above.
+const EDGE_STRAYS: f32 = 20.0;
 
 /// How far rays may pass by an apex behind them, as a part of how wide they are where they start: more would be no beam.
 const STRAY: f32 = 0.03;
