@@ -66,14 +66,15 @@ fn a_folder_that_cannot_be_made_is_named() {
 
 #[test]
 fn failed_units_are_listed_and_do_not_stop_the_rest_unless_asked_to() {
-    let job = "scene = \"seed\"\nsize = [16, 12]\nspp = 1\n[sweep]\n\"render.seed\" = { range = [0, 6] }\n\
+    let job = "scene = \"seed\"\nsize = [16, 12]\nspp = 1\n[sweep]\n\"render.seed\" = { range = [0, 200] }\n\
         [[output]]\npath = \"{render.seed}/a.png\"\n";
-    for (flag, done_at_least, done_at_most) in [("", 5, 5), ("--fail-fast", 0, 4)] {
+    // Pictures that are on their way to the disk when the first one fails are still finished: a dozen or two.
+    for (flag, done_at_least, done_at_most) in [("", 199, 199), ("--fail-fast", 0, 150)] {
         let folder = folder(job);
         fs::create_dir(folder.path().join("out")).unwrap();
         fs::write(folder.path().join("out/0"), "in the way").unwrap();
         let batch = format!("batch turn.toml -o out --threads 1 {flag}");
-        fails(folder.path(), &batch, 1, &["1 of 6 units failed", "render.seed = 0", "out/0"]);
+        fails(folder.path(), &batch, 1, &["1 of 200 units failed", "render.seed = 0", "out/0"]);
         let count = pictures(&folder.path().join("out")).len() - 1;
         assert!((done_at_least..=done_at_most).contains(&count), "{count} pictures {flag}");
         fs::remove_file(folder.path().join("out/0")).unwrap();
