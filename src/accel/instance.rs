@@ -6,7 +6,7 @@ use super::node::ChildRef;
 use super::query::Query;
 use crate::geometry::{Geometry, Instance};
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Aabb, Lane, Transform, Vec3, gamma};
+use crate::math::{Aabb, Lane, Transform, Vec3, WIDTH, gamma, three};
 
 /// Roundoffs, in the space of an instance and of the largest coordinate there, by which a ray may pass a box that holds a
 /// hit: the 36 of boxes of a tree, and a few for the rounding of the ray; the rest is slack.
@@ -111,10 +111,21 @@ impl Accel {
     /// Rays in the space of an instance; `t` keeps its meaning, since directions keep their lengths' ratio.
     #[inline(always)]
     pub(crate) fn local_rays<L: Lane>(to_world: &Transform, ray: &RayLanes<L>) -> RayLanes<L> {
-        let rows = to_world.inverse_rows().map(|r| r.map(L::Double::splat));
+        Self::through(to_world.inverse_rows().map(|row| row.map(L::Double::splat)), ray)
+    }
+
+    /// Each ray in the space of an instance of its own.
+    #[inline(always)]
+    pub(super) fn local_to_each<L: Lane>(placed: &[&PlacedTree; WIDTH], ray: &RayLanes<L>) -> RayLanes<L> {
+        let rows = placed.map(|placed| placed.to_world.inverse_rows());
+        Self::through(three(|r| std::array::from_fn(|c| L::Double::from_fn(|i| rows[i][r][c]))), ray)
+    }
+
+    /// The images of rays, given the rows of the map.
+    #[inline(always)]
+    fn through<L: Lane>([r0, r1, r2]: [[L::Double; 4]; 3], ray: &RayLanes<L>) -> RayLanes<L> {
         let (o, d) = (ray.origin.widen(), ray.direction.widen());
         let linear = |[x, y, z, _]: [L::Double; 4], v: Vec3<L::Double>| x * v.x + y * v.y + z * v.z;
-        let [r0, r1, r2] = rows;
         let direction = Vec3 { x: linear(r0, d), y: linear(r1, d), z: linear(r2, d) };
         let origin = Vec3 { x: linear(r0, o) + r0[3], y: linear(r1, o) + r1[3], z: linear(r2, o) + r2[3] };
         RayLanes { origin: Vec3::narrow(origin), direction: Vec3::narrow(direction), ..*ray }

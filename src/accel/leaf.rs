@@ -1,5 +1,7 @@
 //! Testing the primitives of a leaf, for every walk, query and tier.
 
+use wide::f32x8;
+
 use super::Accel;
 use super::block::{
     Block, CylinderBlock, PrimitivesByRay, RaysByPrimitive, SphereBlock, TriangleBlock, Walk,
@@ -31,7 +33,7 @@ impl<T: Tier> TestRays<T> {
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRays<T: Tier> {
     pub(super) test: TestRays<T>,
-    pub(super) cull: CullRay<wide::f32x8>,
+    pub(super) cull: CullRay<f32x8>,
 }
 
 impl<T: Tier> PreparedRays<T> {
@@ -44,11 +46,20 @@ impl<T: Tier> PreparedRays<T> {
 
 /// Rays prepared for the boxes of a tree.
 #[inline(always)]
-pub(super) fn cull_rays<T: Tier>(ray: &RayLanes<T::Wide>, tree: TreeRoot) -> CullRay<wide::f32x8> {
+pub(super) fn cull_rays<T: Tier>(ray: &RayLanes<T::Wide>, tree: TreeRoot) -> CullRay<f32x8> {
+    cull_rays_by::<T>(ray, |origin| tree.scale_for(origin))
+}
+
+/// Rays prepared for boxes, given what roundoffs are relative to for rays from such origins.
+#[inline(always)]
+pub(super) fn cull_rays_by<T: Tier>(
+    ray: &RayLanes<T::Wide>,
+    scale_for: impl Fn(Vec3<f32x8>) -> f32x8,
+) -> CullRay<f32x8> {
     let narrow =
         |v: Vec3<T::Wide>| Vec3 { x: T::nearest_f32(v.x), y: T::nearest_f32(v.y), z: T::nearest_f32(v.z) };
     let origin = narrow(ray.origin);
-    CullRay::new(origin, narrow(ray.direction), tree.scale_for(origin))
+    CullRay::new(origin, narrow(ray.direction), scale_for(origin))
 }
 
 /// Lanes of eight rays of a tier.

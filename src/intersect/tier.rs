@@ -53,9 +53,7 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
 
     /// What is computed once for a ray that meets eight triangles at a time.
     type OneRay<R: Real>: Copy;
-    /// Prepares a ray.
-    fn prepare_one<R: Real>(ray: &RayLanes<R>) -> Self::OneRay<R>;
-    /// The same from what lane `i` of several rays was prepared with.
+    /// What lane `i` of several rays was prepared with, for that ray alone.
     fn one_of<L: Lane>(
         ray: &RayLanes<L::Scalar>,
         prepared: &Self::Prepared<L>,

@@ -21,13 +21,6 @@ impl<R: Real> Bound<'_, R> {
             Self::Each(column) => load(column, at),
         }
     }
-    #[inline(always)]
-    fn get(&self, row: usize) -> R {
-        match self {
-            Self::All(t) => *t,
-            Self::Each(column) => column[row],
-        }
-    }
 }
 
 /// Rays as columns.
@@ -82,18 +75,6 @@ impl<R: Real> RayColumns<'_, R> {
         }
         rays.t_min = self.t_min.load(at);
         rays.t_max = self.t_max_at(at);
-    }
-
-    /// The ray of a row.
-    #[inline(always)]
-    pub(super) fn get(&self, row: usize) -> RayLanes<R> {
-        let axes = |c: &[&[R]; 3]| Vec3::new(c[0][row], c[1][row], c[2][row]);
-        RayLanes {
-            origin: axes(&self.origin),
-            direction: axes(&self.direction),
-            t_min: self.t_min.get(row),
-            t_max: self.t_max.get(row),
-        }
     }
 }
 

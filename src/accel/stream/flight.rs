@@ -12,8 +12,10 @@
 
 mod seeds;
 mod slot;
+mod spaces;
+mod view;
 
-use wide::{f32x8, u32x8};
+use wide::u32x8;
 
 use super::Answers;
 use super::candidates::{Candidates, room_for};
@@ -54,6 +56,7 @@ pub(super) struct Flight<T: Tier, Q> {
     in_leaves: Slots<LIST>,
     /// At leaves of anything but triangles.
     at_others: Slots<LIST>,
+    at_instances: Slots<LIST>,
     candidates: Box<Candidates<{ room_for(SLOTS) }>>,
     done: Slots<LIST>,
     stacks: Stacks,
@@ -67,6 +70,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             out_of_nodes: Slots::new(),
             in_leaves: Slots::new(),
             at_others: Slots::new(),
+            at_instances: Slots::new(),
             candidates: Box::default(),
             done: Slots::new(),
             stacks: Stacks::new(accel.stack_bound),
@@ -88,7 +92,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             if self.out_of_nodes.len() < GATHER && self.in_nodes.len() >= FEW {
                 continue;
             }
-            self.leaf_pass(accel, rays);
+            self.leaf_pass(accel);
             if self.done.len() >= DONE || self.in_nodes.len() == 0 {
                 self.refill(accel, &mut waiting, answers);
                 if self.in_nodes.len() + self.out_of_nodes.len() == 0 {
@@ -121,7 +125,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             let slot = &mut self.slots[at];
             let node = unchecked::node(accel, slot.next);
             let (enter, meets) = slot.children(node);
-            let (order, count) = (far_first(slot.octant.into(), meets), meets.count_ones());
+            let (order, count) = (far_first(slot.octant(), meets), meets.count_ones());
             let top = slot.top as usize;
             // Not read back from the stack, which would wait for what is written there.
             let (nearest, below) = (node.child[order.last(count)], self.stacks.child(top - 1));
@@ -145,18 +149,25 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
 
     /// Tests the leaves that have gathered: first all for triangles that may be hit, then those, eight at a time.
     #[inline(always)]
-    fn leaf_pass(&mut self, accel: &Accel, rays: &RayColumns<T::Real>) {
+    fn leaf_pass(&mut self, accel: &Accel) {
         self.find_candidates(accel);
         for first in (0..self.candidates.len()).step_by(WIDTH) {
             self.test_candidates(accel, first);
         }
         for i in 0..self.at_others.len() {
             let at = self.at_others.get(i);
-            // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
-            match self.slots[at].next.kind() >= Accel::INSTANCE {
-                true => self.change_space(accel, rays, at),
-                false => self.slots[at].test_block(accel),
+            let slot = &mut self.slots[at];
+            let next = slot.next;
+            self.at_instances.push_if(next.kind() == Accel::INSTANCE, at);
+            if next == LEAVE {
+                slot.leave();
+            } else if next.kind() < Accel::INSTANCE {
+                // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
+                slot.test_block(accel);
             }
+        }
+        if self.at_instances.len() > 0 {
+            self.enter_instances(accel);
         }
         for i in 0..self.in_leaves.len() {
             self.leave_leaf(accel, self.in_leaves.get(i));
@@ -190,7 +201,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         let (pairs, count) = self.candidates.eight(first);
         let slots = eight(|i| &self.slots[pairs[i].row()]);
         let blocks = eight(|i| unchecked::triangles(accel, slots[i].next));
-        let rays = RayLanes::<T::Wide>::gather(|i| &slots[i].ray);
+        let rays = RayLanes::<T::Wide>::gather(|i| slots[i].ray());
         let corners = TriangleBlock::gather(&blocks, &eight(|i| pairs[i].lane()));
         let limit = T::Wide::from_fn(|i| slots[i].query.limit());
         let hits = T::Triangle::test_candidates(&rays, corners, limit);
@@ -201,7 +212,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             let slot = &mut self.slots[pairs[i].row()];
             let id = blocks[i].ids()[pairs[i].lane()];
             let hit = LaneHit { mask: true, t: hits.t.get(i), u: hits.u.get(i), v: hits.v.get(i) };
-            slot.accepted |= slot.query.accept(&slot.ray, &hit, id);
+            slot.accept(&hit, id);
         }
     }
 
@@ -220,25 +231,6 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             };
         }
         self.go_on(at, self.stacks.child(top - 1), top - 1, accel);
-    }
-
-    /// Takes a ray into the space of an instance, or back.
-    #[inline(never)]
-    fn change_space(&mut self, accel: &Accel, rays: &RayColumns<T::Real>, at: usize) {
-        let slot = &mut self.slots[at];
-        if slot.next == LEAVE {
-            slot.aim(rays.get(slot.row as usize), accel.world);
-            slot.query.enter_instance(0);
-        } else if slot.next.kind() == Accel::INSTANCE {
-            let placed = accel.placed(slot.next);
-            slot.aim(Accel::local_rays(&placed.to_world, &slot.ray), placed.tree);
-            slot.query.enter_instance(placed.row + 1);
-            let mut below = [LEAVE.bits(); WIDTH];
-            below[1] = ChildRef::node(placed.tree.node).bits();
-            let anywhere = f32x8::splat(f32::NEG_INFINITY);
-            self.stacks.write(slot.top as usize, u32x8::new(below), anywhere);
-            slot.top += 2;
-        }
     }
 
     /// Hands out the answers of the rays that are done and starts waiting ones.

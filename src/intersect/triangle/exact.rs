@@ -66,9 +66,6 @@ impl TriangleTest for ExactVolumes {
     type OneRay<R: Real> = ();
 
     #[inline(always)]
-    fn prepare_one<R: Real>(_: &RayLanes<R>) {}
-
-    #[inline(always)]
     fn one_of<L: Lane>(_: &RayLanes<L::Scalar>, _: &OwnBox<L>, _: usize) {}
 
     #[inline(always)]

@@ -56,9 +56,6 @@ impl TriangleTest for FilteredVolumes {
     type OneRay<R: Real> = ();
 
     #[inline(always)]
-    fn prepare_one<R: Real>(_: &RayLanes<R>) {}
-
-    #[inline(always)]
     fn one_of<L: Lane>(_: &RayLanes<L::Scalar>, _: &L, _: usize) {}
 
     #[inline(always)]

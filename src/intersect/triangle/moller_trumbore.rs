@@ -31,9 +31,6 @@ impl TriangleTest for MollerTrumbore {
     type OneRay<R: Real> = ();
 
     #[inline(always)]
-    fn prepare_one<R: Real>(_: &RayLanes<R>) {}
-
-    #[inline(always)]
     fn one_of<L: Lane>(_: &RayLanes<L::Scalar>, (): &(), _: usize) {}
 
     #[inline(always)]

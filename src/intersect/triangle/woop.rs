@@ -135,11 +135,6 @@ impl TriangleTest for Woop {
     type OneRay<R: Real> = OneShear<R>;
 
     #[inline(always)]
-    fn prepare_one<R: Real>(ray: &RayLanes<R>) -> OneShear<R> {
-        OneShear::new(ray)
-    }
-
-    #[inline(always)]
     fn one_of<L: Lane>(ray: &RayLanes<L::Scalar>, shear: &Shear<L>, i: usize) -> OneShear<L::Scalar> {
         let (along_x, along_y) = (shear.along_x.bits() >> i & 1, shear.along_y.bits() >> i & 1);
         let axes = AXES[if along_x != 0 { 0 } else { 2 - along_y as usize }];
@@ -187,18 +182,6 @@ fn by_axes<R: Real>(axes: &[u8; 3], v: &Vec3<R>) -> [R; 3] {
 }
 
 impl<R: Real> OneShear<R> {
-    /// The arithmetic of [`Shear::new`], without branches on the axis.
-    #[inline(always)]
-    fn new(ray: &RayLanes<R>) -> Self {
-        let size = ray.direction.abs();
-        let along_x = size.x.ge(size.y) & size.x.ge(size.z);
-        let along_y = !along_x & size.y.ge(size.z);
-        let z = if along_x { 0 } else { 2 - usize::from(along_y) };
-        let axes = AXES[z];
-        let [x, y, z] = by_axes(&axes, &ray.direction);
-        Self { axes, origin: by_axes(&axes, &ray.origin), shear: [x / z, y / z] }
-    }
-
     /// The two coordinates across the ray of eight corners.
     #[inline(always)]
     fn across<L: Lane<Scalar = R>>(&self, corner: &[[f32; WIDTH]; 3]) -> (L, L) {

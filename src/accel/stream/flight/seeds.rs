@@ -4,22 +4,19 @@ use wide::f32x8;
 
 use super::super::Answers;
 use super::super::columns::RayColumns;
+use super::view::Views;
 use crate::accel::Accel;
-use crate::accel::leaf::{TestRays, cull_rays};
+use crate::accel::leaf::cull_rays;
 use crate::accel::query::Query;
 use crate::accel::traversal::ask_planes;
-use crate::intersect::aabb::CullRay;
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Mask, WIDTH};
+use crate::math::WIDTH;
 
 /// Eight rays and all that their way down the tree needs to know of them.
 pub(super) struct Seeds<T: Tier, A: Answers<T>> {
-    pub(super) rays: TestRays<T>,
-    pub(super) cull: CullRay<f32x8>,
+    pub(super) views: Views<T>,
     pub(super) t_min: f32x8,
     pub(super) limit: f32x8,
-    /// By axis, lanes that go against it.
-    backward: [u32; 3],
     queries: A::Query,
     /// Row of the first.
     first: u32,
@@ -32,13 +29,10 @@ impl<T: Tier, A: Answers<T>> Seeds<T, A> {
         let rays: RayLanes<T::Wide> = rays.load(first as usize);
         let mut queries = A::ask(&rays);
         ask_planes(accel, &rays, &mut queries);
-        let cull = cull_rays::<T>(&rays, accel.world);
         Self {
-            backward: cull.backward().map(Mask::bits),
-            cull,
             t_min: T::below_f32(rays.t_min),
             limit: T::above_f32(queries.limit()),
-            rays: TestRays::new(rays),
+            views: Views::new(rays, cull_rays::<T>(&rays, accel.world)),
             queries,
             first,
         }
@@ -47,13 +41,6 @@ impl<T: Tier, A: Answers<T>> Seeds<T, A> {
     /// Row of ray `i`.
     pub(super) fn row(&self, i: usize) -> u32 {
         self.first + i as u32
-    }
-
-    /// Octant of the direction of ray `i`.
-    #[inline(always)]
-    pub(super) fn octant(&self, i: usize) -> u32 {
-        let [x, y, z] = self.backward.map(|lanes| lanes >> i & 1);
-        x | y << 1 | z << 2
     }
 
     /// What ray `i` asks.

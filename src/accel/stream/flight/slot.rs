@@ -4,56 +4,52 @@ use wide::f32x8;
 
 use super::super::Answers;
 use super::seeds::Seeds;
+use super::view::{Aim, TestRay, View};
 use crate::accel::Accel;
 use crate::accel::block::PrimitivesByRay;
-use crate::accel::instance::TreeRoot;
 use crate::accel::leaf::{BlockVisitor, TestRays, Testable, with_block};
 use crate::accel::node::{ChildRef, Node8};
 use crate::accel::query::Query;
 use crate::accel::unchecked;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::{LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Real, Vec3, three};
+use crate::math::{Lane, Mask, Vec3};
 
 /// A ray under way; what the node pass needs stands first, in one cache line.
 #[derive(Clone, Copy)]
 #[repr(C, align(64))]
 pub(super) struct Slot<T: Tier, Q> {
-    cull: CullRay<f32>,
+    aim: Aim,
     t_min: f32,
     /// Boxes that the ray enters beyond need no visit.
     pub(super) limit: f32,
-    /// The planes that the ray meets first and last, see [`Node8::PLANES`].
-    planes: [u8; 6],
-    pub(super) octant: u8,
     pub(super) next: ChildRef,
     /// Where on the stacks the last entry of its own stands, or the one at the bottom.
     pub(super) top: u32,
     pub(super) row: u32,
     /// Found something in the leaf that is next.
     pub(super) accepted: bool,
-    pub(super) ray: RayLanes<T::Real>,
-    triangle: <T::Triangle as TriangleTest>::OneRay<T::Real>,
+    test: TestRay<T>,
     pub(super) query: Q,
+    /// The ray in the world, while it is in the space of an instance.
+    home: View<T>,
 }
 
 impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
     /// A slot that holds a ray, but has not started it.
     pub(super) fn of<A: Answers<T, One = Q>>(seeds: &Seeds<T, A>, i: usize) -> Self {
-        let ray = seeds.rays.ray.get(i);
+        let home = seeds.views.get(i);
         Self {
-            cull: seeds.cull.get(i),
+            aim: home.aim,
             t_min: 0.0,
             limit: f32::NEG_INFINITY,
-            planes: Node8::PLANES[0],
-            octant: 0,
             next: ChildRef::EMPTY,
             top: 0,
             row: 0,
             accepted: false,
-            triangle: T::Triangle::one_of(&ray, &seeds.rays.triangle, i),
-            ray,
+            test: home.test,
             query: seeds.query(i),
+            home,
         }
     }
 
@@ -66,42 +62,63 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
         root: u32,
         bottom: usize,
     ) {
-        self.cull = seeds.cull.get(i);
-        self.look_along(seeds.octant(i));
+        self.turn(&seeds.views.get(i));
         self.t_min = Lane::get(&seeds.t_min, i);
         self.limit = Lane::get(&seeds.limit, i);
         self.next = ChildRef::node(root);
         self.top = bottom as u32 + 1;
         self.row = seeds.row(i);
-        self.ray = seeds.rays.ray.get(i);
-        self.triangle = T::Triangle::one_of(&self.ray, &seeds.rays.triangle, i);
         self.query = seeds.query(i);
     }
 
+    /// The ray in the space that it is in.
     #[inline(always)]
-    fn look_along(&mut self, octant: u32) {
-        self.octant = octant as u8;
-        self.planes = Node8::PLANES[octant as usize & 7];
+    pub(super) fn ray(&self) -> &RayLanes<T::Real> {
+        &self.test.ray
     }
 
-    /// Turns to another space.
-    pub(super) fn aim(&mut self, ray: RayLanes<T::Real>, tree: TreeRoot) {
-        self.cull = cull_ray::<T>(&ray, tree);
-        let backward = self.cull.backward();
-        self.look_along(three(|k| u32::from(backward[k]) << k).into_iter().sum());
-        self.triangle = T::Triangle::prepare_one(&ray);
-        self.ray = ray;
+    /// Puts a hit in the leaf that is next to the query.
+    #[inline(always)]
+    pub(super) fn accept(&mut self, hit: &LaneHit<T::Real>, id: u32) {
+        self.accepted |= self.query.accept(&self.test.ray, hit, id);
+    }
+
+    #[inline(always)]
+    fn turn(&mut self, view: &View<T>) {
+        self.aim = view.aim;
+        self.test = view.test;
+    }
+
+    /// Goes from the world into the space of an instance.
+    #[inline(always)]
+    pub(super) fn enter(&mut self, view: &View<T>, instance: u32) {
+        self.home = View { aim: self.aim, test: self.test };
+        self.turn(view);
+        self.query.enter_instance(instance + 1);
+    }
+
+    /// Goes back to the world.
+    pub(super) fn leave(&mut self) {
+        let home = self.home;
+        self.turn(&home);
+        self.query.enter_instance(0);
     }
 
     /// Where the ray enters the children of a node, and which of them it meets.
     #[inline(always)]
     pub(super) fn children(&self, node: &Node8) -> (f32x8, u32) {
-        let plane = |i: usize| unchecked::planes(node, self.planes[i]);
+        let plane = |i: usize| unchecked::planes(node, self.aim.planes[i]);
         let near = Vec3 { x: plane(0), y: plane(1), z: plane(2) };
         let far = Vec3 { x: plane(3), y: plane(4), z: plane(5) };
         let (t_min, t_max) = (f32x8::splat(self.t_min), f32x8::splat(self.limit));
-        let (enter, leave) = CullRay::<f32x8>::splat(&self.cull).interval(near, far, t_min, t_max);
+        let (enter, leave) = CullRay::<f32x8>::splat(&self.aim.cull).interval(near, far, t_min, t_max);
         (enter, Lane::le(enter, leave).bits())
+    }
+
+    /// Octant of the direction.
+    #[inline(always)]
+    pub(super) fn octant(&self) -> u32 {
+        self.aim.octant.into()
     }
 
     /// Triangles of the leaf that is next that the ray may hit, as bits; none for a leaf of anything else.
@@ -111,7 +128,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
             return 0;
         }
         let corners = unchecked::triangles(accel, self.next).corner_columns();
-        T::Triangle::candidates::<T::Wide>(&self.ray, &self.triangle, corners)
+        T::Triangle::candidates::<T::Wide>(&self.test.ray, &self.test.triangle, corners)
     }
 
     #[inline(always)]
@@ -126,18 +143,11 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
     }
 }
 
-fn cull_ray<T: Tier>(ray: &RayLanes<T::Real>, tree: TreeRoot) -> CullRay<f32> {
-    let narrow = |x: T::Real| x.to_f32();
-    let narrow3 = |v: Vec3<T::Real>| Vec3::new(narrow(v.x), narrow(v.y), narrow(v.z));
-    let origin = narrow3(ray.origin);
-    CullRay::new(origin, narrow3(ray.direction), tree.scale_for(origin))
-}
-
 /// Leaves of anything but triangles: eight at once.
 impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
     #[inline(never)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let rays = TestRays::new(RayLanes::splat(&self.ray));
+        let rays = TestRays::new(RayLanes::splat(&self.test.ray));
         let limit = T::Wide::splat(self.query.limit());
         let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays);
         if !lanes.any() {
@@ -149,7 +159,7 @@ impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
             let i = left.trailing_zeros() as usize;
             left &= left - 1;
             let one = LaneHit { mask: true, t: hit.t.get(i), u: hit.u.get(i), v: hit.v.get(i) };
-            accepted |= self.query.accept(&self.ray, &one, block.ids()[i]);
+            accepted |= self.query.accept(&self.test.ray, &one, block.ids()[i]);
         }
         accepted
     }
