@@ -1,5 +1,6 @@
 //! From a place on the film to a ray.
 
+use crate::accel::stream::Apex;
 use crate::math::{Lane, Vec3};
 
 /// How the camera projects.
@@ -54,9 +55,13 @@ fn splat<L: Lane>(v: [f64; 3]) -> Vec3<L> {
 }
 
 impl Camera {
-    /// The point that all rays start from.
-    pub fn common_origin(&self) -> Option<[f32; 3]> {
-        matches!(self.projection, Projection::Pinhole).then(|| self.position.map(|x| x as f32))
+    /// Where all rays come from, if it is one place.
+    pub fn apex(&self) -> Option<Apex> {
+        match self.projection {
+            Projection::Pinhole => Some(Apex::Origin(self.position.map(|x| x as f32))),
+            Projection::Orthographic => Some(Apex::Parallel),
+            Projection::ThinLens { .. } => None,
+        }
     }
 
     /// Rays through places of the film, -1 to 1 from left to right and from bottom to top.

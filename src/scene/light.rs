@@ -1,5 +1,6 @@
 //! Lights as compiled.
 
+use crate::accel::stream::Apex;
 use crate::math::{Lane, Vec3};
 use crate::shading::{DirectionalLight, Illumination, PointLight, SpotLight};
 
@@ -34,12 +35,12 @@ impl Light {
         }
     }
 
-    /// The point that rays along `to_light` meet in.
-    pub fn position(&self) -> Option<[f32; 3]> {
+    /// Where rays along `to_light` meet.
+    pub fn apex(&self) -> Apex {
         match self {
-            Self::Point(light) => Some(light.position),
-            Self::Directional(_) => None,
-            Self::Spot(light) => Some(light.position()),
+            Self::Point(light) => Apex::Target(light.position),
+            Self::Directional(_) => Apex::Parallel,
+            Self::Spot(light) => Apex::Target(light.position()),
         }
     }
 

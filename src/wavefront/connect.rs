@@ -7,7 +7,7 @@ use super::queue::{Column3, column, compress_eight, words};
 use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
 use crate::accel::Hint;
-use crate::accel::stream::{Apex, Bound, RayColumns};
+use crate::accel::stream::{Bound, RayColumns};
 use crate::film::contributes;
 use crate::geometry::{entries, gather3};
 use crate::intersect::Tier;
@@ -117,7 +117,7 @@ fn trace<T: Tier>(worker: &mut Worker<T>, light: &Light, queue: &mut ShadowQueue
         t_min: Bound::All(T::Real::constant(0.0)),
         t_max: Bound::All(T::Real::constant(light.t_max())),
     };
-    worker.stream.any(&rays, light.position().map(Apex::Target), Hint::Auto, queue.occluded);
+    worker.stream.any(&rays, Some(light.apex()), Hint::Auto, queue.occluded);
 }
 
 /// Adds the light of those that nothing stops.

@@ -101,7 +101,7 @@ impl<'a> Frame<'a> {
             scene,
             sampler: Sampler::new(s.sampler, s.spp, s.seed),
             filter: s.filter.sampler(),
-            apex: scene.camera.common_origin().map(Apex::Origin),
+            apex: scene.camera.apex(),
         }
     }
     /// What camera rays need.

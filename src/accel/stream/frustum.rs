@@ -6,7 +6,8 @@
 //! triangle if all its rays pass on the outer side of one edge. Departures from the plain form:
 //! - everything is widened by bounds on what the primitive tests may be off by, so that results do not depend on culling;
 //! - the pyramid may stand on its tip: shadow rays towards a light meet in their target;
-//! - rays may start beyond the apex, and pass it by: those that a mirror throws back. Then `z` starts where the first does.
+//! - rays may start beyond the apex, and pass it by: those that a mirror throws back. Then `z` starts where the first does;
+//! - rays may be parallel: then the pyramid is a prism, see [`view`], and slopes are coordinates across.
 //!
 //! **Source:** Reshetov, Soupikov and Hurley, Multi-Level Ray Tracing Algorithm, 2005; Boulos, Wald and Benthin, Adaptive
 //! Ray Packet Reordering, 2008. Changed: eight boxes, or the slopes of eight packets, a test; edge functions with bounds.
@@ -72,7 +73,7 @@ impl Default for Frustum {
     fn default() -> Self {
         let none = Slopes { a: [f32x8::ZERO; 2], b: [f32x8::ZERO; 2] };
         Self {
-            view: View { axes: [0, 1, 2], backward: false, apex: [0.0; 3] },
+            view: View::along([0.0, 0.0, 1.0], [0.0; 3]),
             apex: Apex::Origin([0.0; 3]),
             octant: 0,
             all: none,
@@ -124,6 +125,11 @@ impl Frustum {
     /// The slopes at which rays may meet eight primitives in their boxes.
     #[inline(always)]
     pub(super) fn sight(&self, [lo, hi]: &Boxes) -> Sight {
+        if self.view.lean.is_some() {
+            let pad = self.side_pad;
+            let slopes = Slopes { a: [lo.x - pad, hi.x + pad], b: [lo.y - pad, hi.y + pad] };
+            return Sight { slopes, nearest: lo.z };
+        }
         let nearest = lo.z.max(self.first - self.side_pad);
         let (at_near, at_far) = (f32x8::ONE / nearest, f32x8::ONE / hi.z);
         let infinity = f32x8::splat(f32::INFINITY);
@@ -161,21 +167,30 @@ impl Frustum {
     #[inline(always)]
     fn meets(&self, slopes: &Slopes, [lo, hi]: &Boxes, reach: f32x8) -> u32 {
         let pad = self.side_pad;
-        let above = |x: f32x8, slope: f32x8| x - (slope * lo.z).max(slope * hi.z);
-        let below = |x: f32x8, slope: f32x8| (slope * lo.z).min(slope * hi.z) - x;
-        let outside = above(lo.x, slopes.a[1])
-            .max(below(hi.x, slopes.a[0]))
-            .max(above(lo.y, slopes.b[1]))
-            .max(below(hi.y, slopes.b[0]))
-            .max(self.first - hi.z);
+        let beside = if self.view.lean.is_some() {
+            slopes.apart([lo.x, hi.x], [lo.y, hi.y])
+        } else {
+            let above = |x: f32x8, slope: f32x8| x - (slope * lo.z).max(slope * hi.z);
+            let below = |x: f32x8, slope: f32x8| (slope * lo.z).min(slope * hi.z) - x;
+            above(lo.x, slopes.a[1])
+                .max(below(hi.x, slopes.a[0]))
+                .max(above(lo.y, slopes.b[1]))
+                .max(below(hi.y, slopes.b[0]))
+        };
+        let outside = beside.max(self.first - hi.z);
         (outside.le(pad) & lo.z.le(reach)).bits()
     }
 
     /// Of eight triangles, given by their corners, those that rays may meet: told by their edges, not by their boxes.
     #[inline(always)]
     pub(super) fn triangles(&self, corners: [Vec3<f32x8>; 3]) -> u32 {
+        // Parallel rays see all at one distance, so edges do not tell how far along them it is.
+        let (corners, reach) = match self.view.lean {
+            Some(_) => (corners.map(|corner| Vec3 { z: f32x8::ONE, ..corner }), f32::INFINITY),
+            None => (corners, self.reach),
+        };
         let edges = Edges::of(corners, self.middle, self.spread, self.edge_pad);
-        edges.met(&self.about_middle, f32x8::splat(self.reach))
+        edges.met(&self.about_middle, f32x8::splat(reach))
     }
 
     /// How rays see things.

@@ -91,7 +91,7 @@ fn check<T: Tier>(geometry: &Geometry, accel: &Accel, asked: &[Ray], apex: Optio
     expected.iter().flatten().count()
 }
 
-/// Rays with a common origin or target, or from behind one, near each other more often than not, and many of them through landmarks.
+/// Rays with a common origin or target, or from behind one, or parallel, near each other more often than not, and many of them through landmarks.
 fn with_apex(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> (Vec<Ray>, Apex) {
     let near = |at: [f32; 3], by: f64, dice: &mut Dice| -> [f32; 3] {
         let offset = dice.point();
@@ -107,12 +107,16 @@ fn with_apex(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> (Vec<Ray>
         _ => dice.point().map(|x| x as f32 * 8.0),
     };
     let (middle, spread) = (pick(dice), [0.0, 0.05, 0.5, 3.0][dice.below(4)]);
-    let (kind, stray) = (dice.below(3), [0.0, 1e-5, 1e-3][dice.below(3)]);
-    let (is_target, is_behind) = (kind == 1, kind == 2);
+    let (kind, stray) = (dice.below(4), [0.0, 1e-5, 1e-3][dice.below(3)]);
+    let (is_target, is_behind, is_parallel) = (kind == 1, kind == 2, kind == 3);
+    let way = std::array::from_fn(|k| middle[k] - apex[k]);
     let ray = |dice: &mut Dice| {
         let end = if dice.below(4) == 0 { pick(dice) } else { near(middle, spread, dice) };
         let (from, to) = if is_target { (end, apex) } else { (apex, end) };
-        let towards = Ray::new(from, std::array::from_fn(|k| to[k] - from[k]));
+        let towards = match is_parallel {
+            true => Ray::new(end, way),
+            false => Ray::new(from, std::array::from_fn(|k| to[k] - from[k])),
+        };
         let towards = if is_behind {
             started(&towards, dice.between(0.4, 0.6), near(from, stray, dice))
         } else {
@@ -127,7 +131,7 @@ fn with_apex(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> (Vec<Ray>
         }
     };
     let rays = (0..count).map(|_| ray(dice)).collect();
-    (rays, [Apex::Origin, Apex::Target, Apex::Behind][kind](apex))
+    (rays, [Apex::Origin(apex), Apex::Target(apex), Apex::Behind(apex), Apex::Parallel][kind])
 }
 
 /// The ray so far on its way, had it come from elsewhere.

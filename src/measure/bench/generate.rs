@@ -57,7 +57,7 @@ fn pixels([width, height]: [u32; 2]) -> Vec<[u32; 2]> {
 }
 
 fn primary(subject: &Subject, size @ [width, height]: [u32; 2]) -> RaySet {
-    let apex = subject.camera.common_origin().map(Apex::Origin);
+    let apex = subject.camera.apex();
     let mut rays = RaySet { apex, ..RaySet::default() };
     for (i, [x, y]) in pixels(size).into_iter().enumerate() {
         let [jx, jy, ..] = numbers(Class::Primary, i);
@@ -103,6 +103,7 @@ struct Seen {
 fn secondary(subject: &Subject, class: Class, size: [u32; 2]) -> RaySet {
     let apex = match (class, subject.light) {
         (Class::Shadow, Target::Point(place)) => Some(Apex::Target(place.map(|x| x as f32))),
+        (Class::Shadow, Target::Direction(_)) => Some(Apex::Parallel),
         _ => None,
     };
     let mut rays = RaySet { apex, ..RaySet::default() };

@@ -16,22 +16,27 @@ pub enum Apex {
     Target([f32; 3]),
     /// All would have passed near here had they started earlier: the image of a camera behind a mirror.
     Behind([f32; 3]),
+    /// All go the same way, up to rounding, as if from infinitely far: towards a sun, or from an orthographic camera.
+    Parallel,
 }
 
 impl Apex {
-    /// The same point, in the space of an instance.
+    /// The same, in the space of an instance.
     pub(in super::super) fn in_space_of(self, to_world: &Transform) -> Self {
-        let inside = to_world.inverted().point(self.point().map(f64::from)).map(|x| x as f32);
+        let inside = |p: [f32; 3]| to_world.inverted().point(p.map(f64::from)).map(|x| x as f32);
         match self {
-            Self::Origin(_) => Self::Origin(inside),
-            Self::Target(_) => Self::Target(inside),
-            Self::Behind(_) => Self::Behind(inside),
+            Self::Origin(point) => Self::Origin(inside(point)),
+            Self::Target(point) => Self::Target(inside(point)),
+            Self::Behind(point) => Self::Behind(inside(point)),
+            Self::Parallel => Self::Parallel,
         }
     }
 
-    pub(super) fn point(self) -> [f32; 3] {
+    /// The point, if there is one.
+    pub(super) fn point(self) -> Option<[f32; 3]> {
         match self {
-            Self::Origin(point) | Self::Target(point) | Self::Behind(point) => point,
+            Self::Origin(point) | Self::Target(point) | Self::Behind(point) => Some(point),
+            Self::Parallel => None,
         }
     }
 
@@ -48,24 +53,24 @@ impl Apex {
     pub(super) fn towards<T: Tier>(self, rays: &RayLanes<T::Wide>) -> Vec3<f32x8> {
         match self {
             Self::Target(point) => narrow::<T>(rays.origin) - Vec3::splat(point),
-            Self::Origin(_) | Self::Behind(_) => narrow::<T>(rays.direction),
+            Self::Origin(_) | Self::Behind(_) | Self::Parallel => narrow::<T>(rays.direction),
         }
     }
 
-    /// Where along `z` rays of these slopes start, 0 at the apex, and how far they pass it by; infinite where they are not
-    /// as the apex says.
+    /// Where along `z` rays of these slopes start, 0 at the apex or eye, and how far they pass the apex by, or by how much
+    /// their slopes differ from those of the others; infinite where they are not as the apex says.
     #[inline(always)]
     pub(super) fn start<T: Tier>(
         self,
         rays: &RayLanes<T::Wide>,
         view: &View,
-        slopes: [f32x8; 2],
+        (from, slopes): (Vec3<f32x8>, [f32x8; 2]),
     ) -> (f32x8, f32x8) {
-        let from = view.direction(narrow::<T>(rays.origin) - Vec3::splat(view.apex));
         let (start, by) = match self {
             Self::Origin(_) => (f32x8::ZERO, from.abs().max_component()),
             Self::Target(_) => (f32x8::ZERO, passes_by::<T>(rays, view, from)),
             Self::Behind(_) => (from.z, passed_by(from, slopes)),
+            Self::Parallel => (from.z, view.leans_from(slopes)),
         };
         (start, Lane::select(by.ge(f32x8::ZERO), by, f32x8::splat(f32::INFINITY)))
     }

@@ -27,6 +27,12 @@ impl Slopes {
     pub(super) fn overlap(&self, o: &Self) -> <f32x8 as Lane>::Mask {
         (self.a[0].le(o.a[1]) & o.a[0].le(self.a[1])) & (self.b[0].le(o.b[1]) & o.b[0].le(self.b[1]))
     }
+    /// How far they are from others, at most zero where they have some in common.
+    #[inline(always)]
+    pub(super) fn apart(&self, a: [f32x8; 2], b: [f32x8; 2]) -> f32x8 {
+        let [x, y] = [(self.a, a), (self.b, b)].map(|(s, o)| (o[0] - s[1]).max(s[0] - o[1]));
+        x.max(y)
+    }
     /// Lanes in which these reach over more than the others, one way or the other.
     #[inline(always)]
     pub(super) fn wider_than(&self, o: &Self) -> <f32x8 as Lane>::Mask {
@@ -65,10 +71,14 @@ pub(super) fn slopes(d: Vec3<f32x8>, asked: u32) -> Option<(f32x8, f32x8, f32x8)
     if asked == 0xff {
         return Some((a, b, d.z));
     }
-    let mask = Mask::from_bits(asked);
-    let stand_in = |v: f32x8| if asked == 0 { 0.0 } else { v.get(asked.trailing_zeros() as usize) };
-    let fill = |v: f32x8| Lane::select(mask, v, f32x8::splat(stand_in(v)));
-    Some((fill(a), fill(b), Lane::select(mask, d.z, f32x8::ONE)))
+    Some((filled(a, asked), filled(b, asked), Lane::select(Mask::from_bits(asked), d.z, f32x8::ONE)))
+}
+
+/// The first lane that is asked in place of those that are not; zero without any.
+#[inline(always)]
+pub(super) fn filled(v: f32x8, asked: u32) -> f32x8 {
+    let stand_in = if asked == 0 { 0.0 } else { v.get(asked.trailing_zeros() as usize % WIDTH) };
+    Lane::select(Mask::from_bits(asked), v, f32x8::splat(stand_in))
 }
 
 /// Least and greatest of the lanes of row `j`, in lane `j`.

@@ -2,7 +2,7 @@
 
 use wide::f32x8;
 
-use super::slopes::{Slopes, greatest, least, range, slopes};
+use super::slopes::{Slopes, filled, greatest, least, range, slopes};
 use super::view::View;
 use super::{Apex, Frustum, asked, narrow};
 use crate::accel::instance::TreeRoot;
@@ -19,7 +19,7 @@ const SIDE_ROUNDOFFS: f64 = 192.0;
 
 /// The same for edge functions, of the product of the largest coordinate and the distance at which rays pass the
 /// corners: a coordinate across is off by 6 roundoffs of the largest, by 14 for an apex that rays pass by, in the triangle
-/// test as here; an edge function is the sum of two products of two such; and twice that.
+/// test as here; parallel rays, of slopes up to 1, are seen within 14 as well; an edge function is the sum of two products of two such; and twice that.
 const EDGE_ROUNDOFFS: f64 = 128.0;
 
 /// What rays pass by an apex behind them counts so many times in edge functions: four for those, and for six times the volume
@@ -43,11 +43,19 @@ impl Frustum {
     ) -> Option<()> {
         let leader = packets.iter().find(|rays| asked::<T>(rays) != 0)?;
         let lead = asked::<T>(leader).trailing_zeros() as usize;
-        (self.apex, self.view) = (apex, View::along(apex.towards::<T>(leader).get(lead), apex.point()));
+        let heading = apex.towards::<T>(leader).get(lead);
+        self.apex = apex;
+        self.view = match apex.point() {
+            Some(point) => View::along(heading, point),
+            None => View::along_all(heading, narrow::<T>(leader.origin).get(lead)),
+        };
         let (astray, size) = self.survey::<T>(packets, tree)?;
-        let (allowed, counted) = match apex.is_behind() {
-            true => (STRAY * self.all.widest() * self.first.get(0), astray),
-            false => (size * (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32, 0.0),
+        let roundoffs = (APEX_ROUNDOFFS * f32::ROUNDOFF) as f32;
+        let (allowed, counted) = match apex {
+            Apex::Behind(_) => (STRAY * self.all.widest() * self.first.get(0), astray),
+            Apex::Origin(_) | Apex::Target(_) => (size * roundoffs, 0.0),
+            // Over twice the size, as far as anything is from where a ray starts.
+            Apex::Parallel => (0.5 * roundoffs, 0.0),
         };
         let close = astray <= allowed;
         if !close {
@@ -69,7 +77,11 @@ impl Frustum {
                 return None;
             }
             (a[j], b[j], self.along[j]) = slopes(self.view.direction(self.apex.towards::<T>(rays)), asked)?;
-            let (start, by) = self.apex.start::<T>(rays, &self.view, [a[j], b[j]]);
+            let from = self.view.direction(narrow::<T>(rays.origin) - Vec3::splat(self.view.eye));
+            let (start, by) = self.apex.start::<T>(rays, &self.view, (from, [a[j], b[j]]));
+            if let Some(across) = self.view.across(from) {
+                [a[j], b[j]] = across.map(|at| filled(at, asked));
+            }
             let asked = Mask::from_bits(asked);
             self.start[j] = Lane::select(asked, start, f32x8::ZERO);
             first = Lane::select(asked, Lane::min(first, start), first);
@@ -80,7 +92,7 @@ impl Frustum {
             (a[j], b[j]) = (a[0], b[0]);
         }
         let scale = greatest(tree.scale_for(far).max(far.max_component()));
-        let size = self.view.apex.iter().fold(scale, |size, x| size.max(x.abs()));
+        let size = self.view.eye.iter().fold(scale, |size, x| size.max(x.abs()));
         self.first = f32x8::splat(least(first));
         self.set_slopes(Slopes { a: range(a), b: range(b) });
         Some((greatest(astray), size))
@@ -97,9 +109,9 @@ impl Frustum {
         self.about_middle = all.about(middle);
         self.spread = self.about_middle.greatest();
         let [x, y, z] = self.view.axes;
-        let backward = |middle: f32x8| usize::from(middle.get(0) < 0.0);
-        self.octant =
-            backward(middle[0]) << x | backward(middle[1]) << y | usize::from(self.view.backward) << z;
+        let slopes = self.view.lean.unwrap_or(middle.map(|slope| slope.get(0)));
+        let [against_x, against_y] = slopes.map(|slope| usize::from(slope < 0.0));
+        self.octant = against_x << x | against_y << y | usize::from(self.view.backward) << z;
     }
 
     /// Takes the size of coordinates, and by how much more than roundoffs rays pass by the apex; `None` where a bound

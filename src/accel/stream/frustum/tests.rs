@@ -16,13 +16,18 @@ fn offset(at: [f64; 3], by: f64, dice: &mut Dice) -> [f64; 3] {
 /// Sixty-four rays from an apex past a point, and the apex; as a mirror would throw them back, they start on the way.
 fn beam(dice: &mut Dice) -> (Vec<Ray>, Apex) {
     let (apex, middle) = (dice.point().map(|x| 3.0 * x), dice.point());
-    let (kind, spread) = (dice.below(3), dice.between(0.01, 0.3));
+    let (kind, spread) = (dice.below(4), dice.between(0.01, 0.3));
+    let way: [f32; 3] = three(|k| (middle[k] - apex[k]) as f32);
     let narrow = |p: [f64; 3]| p.map(|x| x as f32);
     let ray = |dice: &mut Dice| {
         let end = narrow(offset(middle, spread, dice));
-        let (from, to) = if kind == 1 { (end, narrow(apex)) } else { (narrow(apex), end) };
-        let mut ray = Ray::new(from, three(|k| to[k] - from[k]));
-        ray.t_max = [f32::INFINITY, 1.0, dice.between(0.5, 3.0) as f32][kind];
+        let (from, to) = match kind {
+            1 => (end, narrow(apex)),
+            3 => (end, three(|k| end[k] + way[k])),
+            _ => (narrow(apex), end),
+        };
+        let mut ray = Ray::new(from, if kind == 3 { way } else { three(|k| to[k] - from[k]) });
+        ray.t_max = [f32::INFINITY, 1.0, dice.between(0.5, 3.0) as f32, dice.between(0.5, 3.0) as f32][kind];
         if kind == 2 {
             let way = dice.between(0.3, 0.5);
             let from = offset(apex, 1e-4, dice);
@@ -31,7 +36,8 @@ fn beam(dice: &mut Dice) -> (Vec<Ray>, Apex) {
         ray
     };
     let rays = (0..WIDTH * WIDTH).map(|_| ray(dice)).collect();
-    (rays, [Apex::Origin, Apex::Target, Apex::Behind][kind](narrow(apex)))
+    let apex = narrow(apex);
+    (rays, [Apex::Origin(apex), Apex::Target(apex), Apex::Behind(apex), Apex::Parallel][kind])
 }
 
 /// A box of any size on the way of a ray, or beside it.
