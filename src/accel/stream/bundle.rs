@@ -27,6 +27,10 @@ const PAYS: usize = 6 * WIDTH * WIDTH;
 /// Those after which it is given up: by then it costs less to go on than to begin otherwise, unless there are many more.
 const BUDGET: usize = 8 * WIDTH * WIDTH;
 
+/// Primitives that an instance counts as for rays that start on surfaces: what is near for a camera's rays is far apart
+/// for those, so a bundle of them goes into most instances for a few rays' sake.
+const SCATTERED: usize = 3 * WIDTH * WIDTH;
+
 /// What a worker keeps for bundles.
 pub(super) struct Workplace<T: Tier> {
     /// Packets prepared for primitives when first tested, as many meet nothing; which of them are, as bits.
@@ -143,6 +147,9 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
     /// Goes through an instance: with the pyramid of its rays in there, or else packet by packet.
     #[inline(never)]
     fn visit_instance(&mut self, accel: &Accel, leaf: ChildRef, stacks: &mut Stacks) {
+        if !matches!(self.frustum.apex(), Apex::Origin(_)) {
+            self.met += SCATTERED;
+        }
         let placed = accel.placed(leaf);
         let (root, count) = (placed.tree.node, self.rays.len());
         let local: [RayLanes<T::Wide>; WIDTH] =
