@@ -13,24 +13,22 @@ use crate::intersect::triangle::Glimpse;
 use crate::intersect::{Curved, LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
 use crate::math::{Lane, Mask, Vec3, WIDTH};
 
+/// What the triangle test of a tier prepares once a ray.
+pub(super) type ForTriangles<T> = <<T as Tier>::Triangle as TriangleTest>::Prepared<<T as Tier>::Wide>;
+
 /// Rays with all that the primitive tests of a tier prepare once a ray.
 #[derive(Clone, Copy)]
-pub(super) struct TestRays<T: Tier> {
-    pub(super) ray: RayLanes<T::Wide>,
-    pub(super) triangle: <T::Triangle as TriangleTest>::Prepared<T::Wide>,
-}
-
-impl<T: Tier> TestRays<T> {
-    #[inline(always)]
-    pub(super) fn new(ray: RayLanes<T::Wide>) -> Self {
-        Self { triangle: T::Triangle::prepare(&ray), ray }
-    }
+pub(super) struct TestRays<'a, T: Tier> {
+    pub(super) ray: &'a RayLanes<T::Wide>,
+    /// Means nothing to other primitives.
+    pub(super) triangle: &'a ForTriangles<T>,
 }
 
 /// Rays prepared for boxes and primitives.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRays<T: Tier> {
-    pub(super) test: TestRays<T>,
+    pub(super) ray: RayLanes<T::Wide>,
+    triangle: ForTriangles<T>,
     pub(super) cull: CullRay<wide::f32x8>,
 }
 
@@ -38,7 +36,13 @@ impl<T: Tier> PreparedRays<T> {
     /// Prepares rays for a tree.
     #[inline(always)]
     pub(super) fn new(ray: RayLanes<T::Wide>, tree: TreeRoot) -> Self {
-        Self { cull: cull_rays::<T>(&ray, tree), test: TestRays::new(ray) }
+        Self { cull: cull_rays::<T>(&ray, tree), triangle: T::Triangle::prepare(&ray), ray }
+    }
+
+    /// The same for primitives alone.
+    #[inline(always)]
+    pub(super) fn test(&self) -> TestRays<'_, T> {
+        TestRays { ray: &self.ray, triangle: &self.triangle }
     }
 }
 
@@ -87,14 +91,14 @@ pub(super) trait Testable: Block {
         query: &mut Q,
     ) -> bool {
         let hit = self.hit::<T, W>(step, lanes, rays, query.limit());
-        query.accept(&rays.ray, &hit, W::ids(self.ids(), step))
+        query.accept(rays.ray, &hit, W::ids(self.ids(), step))
     }
 }
 
 impl Testable for TriangleBlock {
     #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Triangle::may_hit(&rays.ray, &rays.triangle, self.corners::<W, _>(step))
+        T::Triangle::may_hit(rays.ray, rays.triangle, self.corners::<W, _>(step))
     }
 
     #[inline(always)]
@@ -105,20 +109,20 @@ impl Testable for TriangleBlock {
         rays: &TestRays<T>,
         limit: T::Wide,
     ) -> LaneHit<T::Wide> {
-        T::Triangle::hit(lanes, &rays.ray, &rays.triangle, self.corners::<W, _>(step), limit)
+        T::Triangle::hit(lanes, rays.ray, rays.triangle, self.corners::<W, _>(step), limit)
     }
 
     #[inline(always)]
     fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Seen<T>> {
         let corners = self.corners::<W, _>(step);
-        Some((T::Triangle::glimpse(&rays.ray, &rays.triangle, corners)?, corners))
+        Some((T::Triangle::glimpse(rays.ray, rays.triangle, corners)?, corners))
     }
 }
 
 impl Testable for SphereBlock {
     #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Curved::may_hit_sphere(&rays.ray, &self.spheres::<W, _>(step))
+        T::Curved::may_hit_sphere(rays.ray, &self.spheres::<W, _>(step))
     }
 
     #[inline(always)]
@@ -129,14 +133,14 @@ impl Testable for SphereBlock {
         rays: &TestRays<T>,
         _: T::Wide,
     ) -> LaneHit<T::Wide> {
-        T::Curved::hit_sphere(lanes, &rays.ray, &self.spheres::<W, _>(step))
+        T::Curved::hit_sphere(lanes, rays.ray, &self.spheres::<W, _>(step))
     }
 }
 
 impl Testable for CylinderBlock {
     #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Curved::may_hit_cylinder(&rays.ray, &self.cylinders::<W, _>(step))
+        T::Curved::may_hit_cylinder(rays.ray, &self.cylinders::<W, _>(step))
     }
 
     #[inline(always)]
@@ -147,7 +151,7 @@ impl Testable for CylinderBlock {
         rays: &TestRays<T>,
         _: T::Wide,
     ) -> LaneHit<T::Wide> {
-        T::Curved::hit_cylinder(lanes, &rays.ray, &self.cylinders::<W, _>(step))
+        T::Curved::hit_cylinder(lanes, rays.ray, &self.cylinders::<W, _>(step))
     }
 }
 
@@ -172,7 +176,7 @@ pub(super) fn with_block(accel: &Accel, leaf: ChildRef, visitor: &mut impl Block
 
 /// Puts all primitives of a block to one query, eight rays to each.
 pub(super) struct EachPrimitive<'a, T: Tier, Q> {
-    pub(super) rays: &'a TestRays<T>,
+    pub(super) rays: TestRays<'a, T>,
     pub(super) query: &'a mut Q,
     pub(super) pending: &'a mut Pending<T>,
 }
@@ -183,13 +187,13 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
         let (mut likely, mut count) = ([(0, 0); WIDTH + 1], 0);
         for i in 0..block.count() as usize & 15 {
-            let lanes = block.may_hit::<T, RaysByPrimitive>(i, self.rays).bits();
+            let lanes = block.may_hit::<T, RaysByPrimitive>(i, &self.rays).bits();
             likely[count] = (i, lanes);
             count += usize::from(lanes != 0);
         }
         let mut accepted = false;
         for &(i, lanes) in &likely[..count] {
-            accepted |= self.pending.ask((block, i), Mask::from_bits(lanes), self.rays, self.query);
+            accepted |= self.pending.ask((block, i), Mask::from_bits(lanes), &self.rays, self.query);
         }
         accepted
     }
@@ -197,14 +201,14 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
 
 /// Puts all primitives of a block to one query, at once to one ray.
 pub(super) struct AllPrimitives<'a, T: Tier, Q> {
-    pub(super) rays: &'a TestRays<T>,
+    pub(super) rays: TestRays<'a, T>,
     pub(super) query: &'a mut Q,
 }
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for AllPrimitives<'_, T, Q> {
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let lanes = block.may_hit::<T, PrimitivesByRay>(0, self.rays);
-        lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, self.rays, self.query)
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &self.rays);
+        lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, &self.rays, self.query)
     }
 }

@@ -4,7 +4,7 @@ use wide::{f32x8, f64x8};
 
 use super::triangle::{ExactVolumes, FilteredVolumes, Glimpse, Woop};
 use super::{LaneHit, RayLanes, cylinder, sphere};
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
+use crate::math::{Lane, Mask, Real, Stored, Vec3, WIDTH};
 
 /// A triangle test: what it prepares once a ray, and what it asks of a triangle.
 pub trait TriangleTest: Copy + Send + Sync + 'static {
@@ -149,7 +149,7 @@ mod sealed {
 /// A precision tier. The program matches on [`TierName`] once, at the door; behind it the tier is a type.
 pub trait Tier: sealed::Sealed + Copy + Default + Send + Sync + 'static {
     /// Number type of rays, hits and shading.
-    type Real: Real;
+    type Real: Real + Stored<Self::Wide>;
     /// Eight of them.
     type Wide: Lane<Scalar = Self::Real, Bits = wide::u32x8>;
     /// The triangle test.

@@ -5,16 +5,17 @@ use wide::f32x8;
 use super::super::Answers;
 use super::super::columns::RayColumns;
 use crate::accel::Accel;
-use crate::accel::leaf::{TestRays, cull_rays};
+use crate::accel::leaf::{ForTriangles, cull_rays};
 use crate::accel::query::Query;
 use crate::accel::traversal::ask_planes;
 use crate::intersect::aabb::CullRay;
-use crate::intersect::{RayLanes, Tier};
-use crate::math::{Mask, WIDTH};
+use crate::intersect::{RayLanes, Tier, TriangleTest};
+use crate::math::{Mask, Stored, WIDTH};
 
 /// Eight rays and all that their way down the tree needs to know of them.
 pub(super) struct Seeds<T: Tier, A: Answers<T>> {
-    pub(super) rays: TestRays<T>,
+    pub(super) rays: RayLanes<T::Wide>,
+    pub(super) triangle: ForTriangles<T>,
     pub(super) cull: CullRay<f32x8>,
     pub(super) t_min: f32x8,
     pub(super) limit: f32x8,
@@ -28,7 +29,7 @@ pub(super) struct Seeds<T: Tier, A: Answers<T>> {
 impl<T: Tier, A: Answers<T>> Seeds<T, A> {
     /// The rays from a row on.
     #[inline(always)]
-    pub(super) fn new(accel: &Accel, rays: &RayColumns<T::Real>, first: u32) -> Self {
+    pub(super) fn new<S: Stored<T::Wide>>(accel: &Accel, rays: &RayColumns<S>, first: u32) -> Self {
         let rays: RayLanes<T::Wide> = rays.load(first as usize);
         let mut queries = A::ask(&rays);
         ask_planes(accel, &rays, &mut queries);
@@ -38,7 +39,8 @@ impl<T: Tier, A: Answers<T>> Seeds<T, A> {
             cull,
             t_min: T::below_f32(rays.t_min),
             limit: T::above_f32(queries.limit()),
-            rays: TestRays::new(rays),
+            triangle: T::Triangle::prepare(&rays),
+            rays,
             queries,
             first,
         }
@@ -83,9 +85,9 @@ impl Alone {
 }
 
 /// Rays that wait, of which up to eight are prepared.
-pub(super) struct Waiting<'r, T: Tier, A: Answers<T>> {
+pub(super) struct Waiting<'r, T: Tier, A: Answers<T>, S> {
     accel: &'r Accel,
-    rays: &'r RayColumns<'r, T::Real>,
+    rays: &'r RayColumns<'r, S>,
     runs: std::slice::Iter<'r, u32>,
     seeds: Seeds<T, A>,
     /// Lanes of the seeds that have started, and how many are to.
@@ -93,9 +95,9 @@ pub(super) struct Waiting<'r, T: Tier, A: Answers<T>> {
     count: usize,
 }
 
-impl<'r, T: Tier, A: Answers<T>> Waiting<'r, T, A> {
+impl<'r, T: Tier, A: Answers<T>, S: Stored<T::Wide>> Waiting<'r, T, A, S> {
     /// `None` without any.
-    pub(super) fn new(accel: &'r Accel, rays: &'r RayColumns<'r, T::Real>, alone: &'r Alone) -> Option<Self> {
+    pub(super) fn new(accel: &'r Accel, rays: &'r RayColumns<'r, S>, alone: &'r Alone) -> Option<Self> {
         let mut runs = alone.runs.iter();
         let first = *runs.next()?;
         let seeds = Seeds::new(accel, rays, first);

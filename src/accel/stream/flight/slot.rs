@@ -40,7 +40,7 @@ pub(super) struct Slot<T: Tier, Q> {
 impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
     /// A slot that holds a ray, but has not started it.
     pub(super) fn of<A: Answers<T, One = Q>>(seeds: &Seeds<T, A>, i: usize) -> Self {
-        let ray = seeds.rays.ray.get(i);
+        let ray = seeds.rays.get(i);
         Self {
             cull: seeds.cull.get(i),
             t_min: 0.0,
@@ -51,7 +51,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
             top: 0,
             row: 0,
             accepted: false,
-            triangle: T::Triangle::one_of(&ray, &seeds.rays.triangle, i),
+            triangle: T::Triangle::one_of(&ray, &seeds.triangle, i),
             ray,
             query: seeds.query(i),
         }
@@ -73,8 +73,8 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
         self.next = ChildRef::node(root);
         self.top = bottom as u32 + 1;
         self.row = seeds.row(i);
-        self.ray = seeds.rays.ray.get(i);
-        self.triangle = T::Triangle::one_of(&self.ray, &seeds.rays.triangle, i);
+        self.ray = seeds.rays.get(i);
+        self.triangle = T::Triangle::one_of(&self.ray, &seeds.triangle, i);
         self.query = seeds.query(i);
     }
 
@@ -137,7 +137,8 @@ fn cull_ray<T: Tier>(ray: &RayLanes<T::Real>, tree: TreeRoot) -> CullRay<f32> {
 impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
     #[inline(never)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let rays = TestRays::new(RayLanes::splat(&self.ray));
+        let ray = RayLanes::splat(&self.ray);
+        let rays = TestRays { triangle: &T::Triangle::prepare(&ray), ray: &ray };
         let limit = T::Wide::splat(self.query.limit());
         let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays);
         if !lanes.any() {
