@@ -75,6 +75,18 @@ pub(super) trait Testable: Block {
         limit: T::Wide,
     ) -> LaneHit<T::Wide>;
 
+    /// Of the lanes that may hit, those that a query needs, as far as is cheap to tell beside meeting them.
+    #[inline(always)]
+    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
+        &self,
+        _: usize,
+        lanes: Lanes<T>,
+        _: &TestRays<T>,
+        _: &Q,
+    ) -> Lanes<T> {
+        lanes
+    }
+
     /// What is certain without meeting them, where there is a cheap way to tell.
     #[inline(always)]
     fn glimpse<T: Tier, W: Walk>(&self, _step: usize, _: &TestRays<T>) -> Option<Seen<T>> {
@@ -93,6 +105,18 @@ pub(super) trait Testable: Block {
         let hit = self.hit::<T, W>(step, lanes, rays, query.limit());
         query.accept(rays.ray, &hit, W::ids(self.ids(), step))
     }
+}
+
+/// Of lanes that may hit, those that still ask, or those that may hit before what was found.
+#[inline(always)]
+fn needed<T: Tier, Q: Query<T::Wide>>(
+    lanes: Lanes<T>,
+    rays: &TestRays<T>,
+    query: &Q,
+    within: impl FnOnce(T::Wide) -> Lanes<T>,
+) -> Lanes<T> {
+    let limit = query.limit();
+    if Q::ANY { lanes & limit.gt(rays.ray.t_min) } else { within(limit) }
 }
 
 impl Testable for TriangleBlock {
@@ -121,6 +145,19 @@ impl Testable for TriangleBlock {
 
 impl Testable for SphereBlock {
     #[inline(always)]
+    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
+        &self,
+        step: usize,
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        query: &Q,
+    ) -> Lanes<T> {
+        needed::<T, Q>(lanes, rays, query, |limit| {
+            T::Curved::sphere_within(lanes, rays.ray, &self.spheres::<W, _>(step), limit)
+        })
+    }
+
+    #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
         T::Curved::may_hit_sphere(rays.ray, &self.spheres::<W, _>(step))
     }
@@ -138,6 +175,19 @@ impl Testable for SphereBlock {
 }
 
 impl Testable for CylinderBlock {
+    #[inline(always)]
+    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
+        &self,
+        step: usize,
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        query: &Q,
+    ) -> Lanes<T> {
+        needed::<T, Q>(lanes, rays, query, |limit| {
+            T::Curved::cylinder_within(lanes, rays.ray, &self.cylinders::<W, _>(step), limit)
+        })
+    }
+
     #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
         T::Curved::may_hit_cylinder(rays.ray, &self.cylinders::<W, _>(step))

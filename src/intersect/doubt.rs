@@ -51,6 +51,13 @@ impl<L: Lane> Doubt<L> {
     }
 }
 
+/// By how much a squared distance at `t` has to exceed a squared radius for no root, as it will be found, to lie before:
+/// some thousand roundoffs of the squared way there, where those of points, roots and their distances are some hundred.
+#[inline(always)]
+pub(super) fn rounding_at<L: Lane>(t: L, offset2: L, direction2: L) -> L {
+    (offset2 + t * t * direction2) * L::constant(gamma_of(4096, <L::Scalar as Real>::ROUNDOFF))
+}
+
 /// The sum of magnitudes.
 #[inline(always)]
 pub(super) fn size<L: Lane>(v: Vec3<L>) -> L {

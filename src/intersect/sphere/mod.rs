@@ -99,6 +99,17 @@ fn inside<N: Ring>(f: &[N; 3], d: &[N; 3], radius: &N) -> N {
     radius.squared().times(&ring_dot(d, d)).minus(&ring_dot(&n, &n))
 }
 
+/// Lanes whose rays certainly hit nothing at `limit` or before: there they are still outside, and come nearer. NaN and infinities
+/// decide nothing.
+#[inline(always)]
+pub fn is_beyond<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>, limit: L) -> L::Mask {
+    let (f, d) = (ray.origin - s.center, ray.direction);
+    let at = f + d * limit;
+    let reach = s.radius * s.radius + doubt::rounding_at(limit, fused_dot(f, f), fused_dot(d, d));
+    let outside = fused_dot(at, at).gt(reach) & fused_dot(at, d).lt(L::zero());
+    (outside & ray.t_min.ge(L::zero())) | limit.le(ray.t_min)
+}
+
 /// False only where the sphere is certainly missed. Written with `not greater`, so that overflow, underflow and NaN
 /// count as doubt.
 #[inline(always)]
