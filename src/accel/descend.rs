@@ -40,12 +40,12 @@ pub(super) trait Descend: Walk {
     fn visit_leaf<T: Tier, Q: Query<T::Wide>>(
         accel: &Accel,
         leaf: ChildRef,
-        rays: &TestRays<T>,
+        rays: TestRays<'_, T>,
         query: &mut Q,
         kept: &mut Self::Kept<T>,
     );
     /// Leaves the query as it would be had nothing been kept.
-    fn settle<T: Tier, Q: Query<T::Wide>>(rays: &TestRays<T>, query: &mut Q, kept: &mut Self::Kept<T>);
+    fn settle<T: Tier, Q: Query<T::Wide>>(rays: TestRays<'_, T>, query: &mut Q, kept: &mut Self::Kept<T>);
 }
 
 /// The octant of the first ray, and whether all rays share it.
@@ -115,7 +115,7 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
     stack: &mut Vec<D::Entry>,
 ) -> i32 {
     let base = stack.len();
-    let t_min = T::below_f32(rays.test.ray.t_min);
+    let t_min = T::below_f32(rays.ray.t_min);
     let octant = Octant::of(&rays.cull);
     let mut kept = D::Kept::<T>::default();
     let (costs, mut saved) = (Costs::of(octant, Q::ANY), Costs::START);
@@ -133,15 +133,15 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
             let node = &accel.nodes[child.index() as usize];
             D::push_children(accel, node, &rays.cull, octant, (t_min, limit), stack);
         } else if child.kind() == Accel::INSTANCE {
-            D::settle::<T, Q>(&rays.test, query, &mut kept);
-            accel.visit_instance::<T, Q>(child, &rays.test.ray, query, |root, local, query| {
+            D::settle::<T, Q>(rays.test(), query, &mut kept);
+            accel.visit_instance::<T, Q>(child, &rays.ray, query, |root, local, query| {
                 saved += descend::<T, D, Q>(accel, root, local, query, stack);
             });
         } else {
-            D::visit_leaf::<T, Q>(accel, child, &rays.test, query, &mut kept);
+            D::visit_leaf::<T, Q>(accel, child, rays.test(), query, &mut kept);
         }
     }
-    D::settle::<T, Q>(&rays.test, query, &mut kept);
+    D::settle::<T, Q>(rays.test(), query, &mut kept);
     stack.truncate(base);
     saved
 }

@@ -15,24 +15,22 @@ use crate::intersect::triangle::Glimpse;
 use crate::intersect::{Curved, LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
 use crate::math::{Lane, Mask, Vec3, WIDTH};
 
+/// What the triangle test of a tier prepares once a ray.
+pub(super) type ForTriangles<T> = <<T as Tier>::Triangle as TriangleTest>::Prepared<<T as Tier>::Wide>;
+
 /// Rays with all that the primitive tests of a tier prepare once a ray.
 #[derive(Clone, Copy)]
-pub(super) struct TestRays<T: Tier> {
-    pub(super) ray: RayLanes<T::Wide>,
-    pub(super) triangle: <T::Triangle as TriangleTest>::Prepared<T::Wide>,
-}
-
-impl<T: Tier> TestRays<T> {
-    #[inline(always)]
-    pub(super) fn new(ray: RayLanes<T::Wide>) -> Self {
-        Self { triangle: T::Triangle::prepare(&ray), ray }
-    }
+pub(super) struct TestRays<'a, T: Tier> {
+    pub(super) ray: &'a RayLanes<T::Wide>,
+    /// Means nothing to other primitives.
+    pub(super) triangle: &'a ForTriangles<T>,
 }
 
 /// Rays prepared for boxes and primitives.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRays<T: Tier> {
-    pub(super) test: TestRays<T>,
+    pub(super) ray: RayLanes<T::Wide>,
+    triangle: ForTriangles<T>,
     pub(super) cull: CullRay<f32x8>,
 }
 
@@ -40,7 +38,13 @@ impl<T: Tier> PreparedRays<T> {
     /// Prepares rays for a tree.
     #[inline(always)]
     pub(super) fn new(ray: RayLanes<T::Wide>, tree: TreeRoot) -> Self {
-        Self { cull: cull_rays::<T>(&ray, tree), test: TestRays::new(ray) }
+        Self { cull: cull_rays::<T>(&ray, tree), triangle: T::Triangle::prepare(&ray), ray }
+    }
+
+    /// The same for primitives alone.
+    #[inline(always)]
+    pub(super) fn test(&self) -> TestRays<'_, T> {
+        TestRays { ray: &self.ray, triangle: &self.triangle }
     }
 }
 
@@ -82,6 +86,18 @@ pub(super) trait Testable: Block {
         limit: T::Wide,
     ) -> LaneHit<T::Wide>;
 
+    /// Of the lanes that may hit, those that a query needs, as far as is cheap to tell beside meeting them.
+    #[inline(always)]
+    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
+        &self,
+        _: usize,
+        lanes: Lanes<T>,
+        _: &TestRays<T>,
+        _: &Q,
+    ) -> Lanes<T> {
+        lanes
+    }
+
     /// What is certain without meeting them, where there is a cheap way to tell.
     #[inline(always)]
     fn glimpse<T: Tier, W: Walk>(&self, _step: usize, _: &TestRays<T>) -> Option<Seen<T>> {
@@ -98,14 +114,26 @@ pub(super) trait Testable: Block {
         query: &mut Q,
     ) -> bool {
         let hit = self.hit::<T, W>(step, lanes, rays, query.limit());
-        query.accept(&rays.ray, &hit, W::ids(self.ids(), step))
+        query.accept(rays.ray, &hit, W::ids(self.ids(), step))
     }
+}
+
+/// Of lanes that may hit, those that still ask, or those that may hit before what was found.
+#[inline(always)]
+fn needed<T: Tier, Q: Query<T::Wide>>(
+    lanes: Lanes<T>,
+    rays: &TestRays<T>,
+    query: &Q,
+    within: impl FnOnce(T::Wide) -> Lanes<T>,
+) -> Lanes<T> {
+    let limit = query.limit();
+    if Q::ANY { lanes & limit.gt(rays.ray.t_min) } else { within(limit) }
 }
 
 impl Testable for TriangleBlock {
     #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Triangle::may_hit(&rays.ray, &rays.triangle, self.corners::<W, _>(step))
+        T::Triangle::may_hit(rays.ray, rays.triangle, self.corners::<W, _>(step))
     }
 
     #[inline(always)]
@@ -116,20 +144,33 @@ impl Testable for TriangleBlock {
         rays: &TestRays<T>,
         limit: T::Wide,
     ) -> LaneHit<T::Wide> {
-        T::Triangle::hit(lanes, &rays.ray, &rays.triangle, self.corners::<W, _>(step), limit)
+        T::Triangle::hit(lanes, rays.ray, rays.triangle, self.corners::<W, _>(step), limit)
     }
 
     #[inline(always)]
     fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Seen<T>> {
         let corners = self.corners::<W, _>(step);
-        Some((T::Triangle::glimpse(&rays.ray, &rays.triangle, corners)?, corners))
+        Some((T::Triangle::glimpse(rays.ray, rays.triangle, corners)?, corners))
     }
 }
 
 impl Testable for SphereBlock {
     #[inline(always)]
+    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
+        &self,
+        step: usize,
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        query: &Q,
+    ) -> Lanes<T> {
+        needed::<T, Q>(lanes, rays, query, |limit| {
+            T::Curved::sphere_within(lanes, rays.ray, &self.spheres::<W, _>(step), limit)
+        })
+    }
+
+    #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Curved::may_hit_sphere(&rays.ray, &self.spheres::<W, _>(step))
+        T::Curved::may_hit_sphere(rays.ray, &self.spheres::<W, _>(step))
     }
 
     #[inline(always)]
@@ -140,14 +181,27 @@ impl Testable for SphereBlock {
         rays: &TestRays<T>,
         _: T::Wide,
     ) -> LaneHit<T::Wide> {
-        T::Curved::hit_sphere(lanes, &rays.ray, &self.spheres::<W, _>(step))
+        T::Curved::hit_sphere(lanes, rays.ray, &self.spheres::<W, _>(step))
     }
 }
 
 impl Testable for CylinderBlock {
     #[inline(always)]
+    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
+        &self,
+        step: usize,
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        query: &Q,
+    ) -> Lanes<T> {
+        needed::<T, Q>(lanes, rays, query, |limit| {
+            T::Curved::cylinder_within(lanes, rays.ray, &self.cylinders::<W, _>(step), limit)
+        })
+    }
+
+    #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Curved::may_hit_cylinder(&rays.ray, &self.cylinders::<W, _>(step))
+        T::Curved::may_hit_cylinder(rays.ray, &self.cylinders::<W, _>(step))
     }
 
     #[inline(always)]
@@ -158,7 +212,7 @@ impl Testable for CylinderBlock {
         rays: &TestRays<T>,
         _: T::Wide,
     ) -> LaneHit<T::Wide> {
-        T::Curved::hit_cylinder(lanes, &rays.ray, &self.cylinders::<W, _>(step))
+        T::Curved::hit_cylinder(lanes, rays.ray, &self.cylinders::<W, _>(step))
     }
 }
 
@@ -183,7 +237,7 @@ pub(super) fn with_block(accel: &Accel, leaf: ChildRef, visitor: &mut impl Block
 
 /// Puts all primitives of a block to one query, eight rays to each.
 pub(super) struct EachPrimitive<'a, T: Tier, Q> {
-    pub(super) rays: &'a TestRays<T>,
+    pub(super) rays: TestRays<'a, T>,
     pub(super) query: &'a mut Q,
     pub(super) pending: &'a mut Pending<T>,
 }
@@ -194,13 +248,13 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
         let (mut likely, mut count) = ([(0, 0); WIDTH + 1], 0);
         for i in 0..block.count() as usize & 15 {
-            let lanes = block.may_hit::<T, RaysByPrimitive>(i, self.rays).bits();
+            let lanes = block.may_hit::<T, RaysByPrimitive>(i, &self.rays).bits();
             likely[count] = (i, lanes);
             count += usize::from(lanes != 0);
         }
         let mut accepted = false;
         for &(i, lanes) in &likely[..count] {
-            accepted |= self.pending.ask((block, i), Mask::from_bits(lanes), self.rays, self.query);
+            accepted |= self.pending.ask((block, i), Mask::from_bits(lanes), &self.rays, self.query);
         }
         accepted
     }
@@ -208,14 +262,14 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
 
 /// Puts all primitives of a block to one query, at once to one ray.
 pub(super) struct AllPrimitives<'a, T: Tier, Q> {
-    pub(super) rays: &'a TestRays<T>,
+    pub(super) rays: TestRays<'a, T>,
     pub(super) query: &'a mut Q,
 }
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for AllPrimitives<'_, T, Q> {
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let lanes = block.may_hit::<T, PrimitivesByRay>(0, self.rays);
-        lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, self.rays, self.query)
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &self.rays);
+        lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, &self.rays, self.query)
     }
 }

@@ -32,7 +32,7 @@ use crate::math::Aabb;
 use instance::{PlacedTree, TreeRoot};
 
 pub use build::Quality;
-pub(crate) use ray_scene::{Batch, lanes};
+pub(crate) use ray_scene::lanes;
 pub use ray_scene::{Primitive, RayScene, RaySceneBuilder, RaySceneError};
 pub use refit::RefitError;
 pub use traversal::{Hint, Traversal};

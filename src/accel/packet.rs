@@ -66,15 +66,15 @@ impl Descend for RaysByPrimitive {
     fn visit_leaf<T: Tier, Q: Query<T::Wide>>(
         accel: &Accel,
         leaf: ChildRef,
-        rays: &TestRays<T>,
+        rays: TestRays<'_, T>,
         query: &mut Q,
         pending: &mut Pending<T>,
     ) {
         with_block(accel, leaf, &mut EachPrimitive { rays, query, pending });
     }
     #[inline(always)]
-    fn settle<T: Tier, Q: Query<T::Wide>>(rays: &TestRays<T>, query: &mut Q, pending: &mut Pending<T>) {
-        pending.settle(rays, query);
+    fn settle<T: Tier, Q: Query<T::Wide>>(rays: TestRays<'_, T>, query: &mut Q, pending: &mut Pending<T>) {
+        pending.settle(&rays, query);
     }
 }
 

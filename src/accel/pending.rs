@@ -90,7 +90,7 @@ impl<T: Tier> Pending<T> {
         if !self.lanes.any() {
             return;
         }
-        let hit = T::Triangle::settle(&rays.ray, self.corners);
+        let hit = T::Triangle::settle(rays.ray, self.corners);
         debug_assert!(self.is_within_bounds(&hit, query.limit()), "{:?} {:?}", rays.ray, self.corners);
         query.settle(self.lanes, &hit);
         self.lanes = Mask::splat(false);

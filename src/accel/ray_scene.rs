@@ -11,7 +11,7 @@ use super::stream::RayStream;
 use super::{Accel, Hint};
 use crate::intersect::{Exact, Fast, Hit, PrimId, PrimKind, Ray, RayLanes, Tier, TierName, Watertight};
 use crate::math::{Lane, Vec3, WIDTH};
-pub(crate) use batch::Batch;
+use batch::Batch;
 
 pub use builder::{RaySceneBuilder, RaySceneError};
 

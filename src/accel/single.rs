@@ -76,7 +76,7 @@ impl Descend for PrimitivesByRay {
     fn visit_leaf<T: Tier, Q: Query<T::Wide>>(
         accel: &Accel,
         leaf: ChildRef,
-        rays: &TestRays<T>,
+        rays: TestRays<'_, T>,
         query: &mut Q,
         (): &mut (),
     ) {
@@ -85,5 +85,5 @@ impl Descend for PrimitivesByRay {
         }
     }
     #[inline(always)]
-    fn settle<T: Tier, Q: Query<T::Wide>>(_: &TestRays<T>, _: &mut Q, (): &mut ()) {}
+    fn settle<T: Tier, Q: Query<T::Wide>>(_: TestRays<'_, T>, _: &mut Q, (): &mut ()) {}
 }

@@ -33,8 +33,8 @@ impl Accel {
     /// A loop of its own, so that the one that is timed carries no counters.
     pub fn visits(&self, ray: &Ray, any: bool) -> Visits {
         let rays = PreparedRays::<Watertight>::new(RayLanes::splat(&RayLanes::from(ray)), self.world);
-        let (octant, t_min) = (Octant::of(&rays.cull), Watertight::below_f32(rays.test.ray.t_min));
-        let (mut visits, mut query) = (Visits::default(), Closest::new(rays.test.ray.t_max));
+        let (octant, t_min) = (Octant::of(&rays.cull), Watertight::below_f32(rays.ray.t_min));
+        let (mut visits, mut query) = (Visits::default(), Closest::new(rays.ray.t_max));
         let mut stack = vec![PrimitivesByRay::entry(ChildRef::node(self.world.node))];
         while let Some(entry) = stack.pop() {
             let limit = query.limit();
@@ -49,7 +49,7 @@ impl Accel {
                 continue;
             }
             visits.blocks += 1;
-            let mut all = AllPrimitives { rays: &rays.test, query: &mut query };
+            let mut all = AllPrimitives { rays: rays.test(), query: &mut query };
             if child.kind() != Self::INSTANCE && with_block(self, child, &mut all) {
                 query.share_limit();
                 visits.hits = 1;

@@ -6,26 +6,32 @@ use crate::math::{Lane, Mask, Real, Vec3, gamma_of};
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Doubt<L> {
     pub(super) value: L,
-    error: L,
+    /// Squared.
+    error2: L,
 }
 
-/// Roundings that a component of the way across may have seen; at most twenty are counted, each of at most `size`.
+/// Roundings that a component of the way across may have seen; at most twenty are counted.
 const ROUNDINGS: u32 = 32;
 
 impl<L: Lane> Doubt<L> {
-    /// `size` is the sum of magnitudes that `across` was computed from: each of its components is off by at most `e`, some
-    /// roundoffs of that, and so the square of its length by `2 e |a| + 3 e^2`, with the sum of magnitudes for `|a|`.
+    /// Of the squared radius, the squared length of the way across, and that of the offset `f` it was computed from.
+    ///
+    /// With `g` some roundoffs, a component across is off by at most `e = g (|fx| + |fy| + |fz|)`, at most `1.8 g |f|`, so the
+    /// square of its length by `2 e (|ax| + |ay| + |az|) + 3 e^2`, at most `6 g |f| |a| + 9 g^2 |f|^2`. The sum of that and
+    /// `g (r^2 + |a|^2)`, squared, is less than `108 g^2 (|f|^2 + m) (m + 3 g^2 |f|^2)` with `m = r^2 + |a|^2`. In squares no
+    /// root is taken, and nothing of `f32` leaves the range of `f64`.
     #[inline(always)]
-    pub(super) fn new(r2: L, across: Vec3<L>, size: L) -> Self {
-        let roundings = L::constant(gamma_of(ROUNDINGS, <L::Scalar as Real>::ROUNDOFF));
-        let (e, reach, a2) = (size * roundings, self::size(across), across.length_squared());
-        Self { value: r2 - a2, error: e * (reach + reach + e * L::constant(3.0)) + (r2 + a2) * roundings }
+    pub(super) fn new(r2: L, across2: L, offset2: L) -> Self {
+        let roundings = gamma_of(ROUNDINGS, <L::Scalar as Real>::ROUNDOFF).powi(2);
+        let [of_offset, of_all] = [3.0, 128.0].map(|times| L::constant(times * roundings));
+        let m = r2 + across2;
+        Self { value: r2 - across2, error2: (offset2 + m) * (m + offset2 * of_offset) * of_all }
     }
 
     /// Lanes whose sign is uncertain, NaN among them.
     #[inline(always)]
     pub(super) fn is_open(&self) -> L::Mask {
-        !self.value.abs().gt(self.error)
+        !(self.value * self.value).gt(self.error2)
     }
 
     /// The value, with the sign that `is_met` gives to lanes in doubt: zero, or less.
@@ -43,6 +49,13 @@ impl<L: Lane> Doubt<L> {
             L::select(L::Mask::from_bits(1 << i), settled, value)
         })
     }
+}
+
+/// By how much a squared distance at `t` has to exceed a squared radius for no root, as it will be found, to lie before:
+/// some thousand roundoffs of the squared way there, where those of points, roots and their distances are some hundred.
+#[inline(always)]
+pub(super) fn rounding_at<L: Lane>(t: L, offset2: L, direction2: L) -> L {
+    (offset2 + t * t * direction2) * L::constant(gamma_of(4096, <L::Scalar as Real>::ROUNDOFF))
 }
 
 /// The sum of magnitudes.

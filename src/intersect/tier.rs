@@ -3,8 +3,8 @@
 use wide::{f32x8, f64x8};
 
 use super::triangle::{ExactVolumes, FilteredVolumes, Glimpse, Woop};
-use super::{LaneHit, RayLanes, cylinder, sphere};
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
+use super::{LaneHit, RayLanes, cylinder, doubt, sphere};
+use crate::math::{Lane, Mask, Real, Stored, Vec3, WIDTH};
 
 /// A triangle test: what it prepares once a ray, and what it asks of a triangle.
 pub trait TriangleTest: Copy + Send + Sync + 'static {
@@ -75,8 +75,23 @@ pub trait Curved: Copy + Send + Sync + 'static {
     fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> L::Mask;
     /// Meets those lanes with their spheres.
     fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> LaneHit<L>;
+    /// Of those lanes, the ones that may hit before `limit`, if it costs little beside meeting them to tell.
+    #[inline(always)]
+    fn sphere_within<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
+        lanes
+    }
     /// Lanes whose rays may hit their cylinders, as far as is cheap to tell.
     fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> L::Mask;
+    /// As [`Curved::sphere_within`].
+    #[inline(always)]
+    fn cylinder_within<L: Lane>(
+        lanes: L::Mask,
+        _: &RayLanes<L>,
+        _: &cylinder::Lanes<L>,
+        _limit: L,
+    ) -> L::Mask {
+        lanes
+    }
     /// Meets those lanes with their cylinders.
     fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
 
@@ -127,12 +142,25 @@ impl Curved for Filtered {
         sphere::may_hit(ray, s)
     }
     #[inline(always)]
+    fn sphere_within<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
+        if doubt::is_exact::<L>() { lanes & !sphere::is_beyond(ray, s, limit) } else { lanes }
+    }
+    #[inline(always)]
     fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
         sphere::solve_widened(lanes, ray, s)
     }
     #[inline(always)]
     fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
         cylinder::may_hit(ray, c)
+    }
+    #[inline(always)]
+    fn cylinder_within<L: Lane>(
+        lanes: L::Mask,
+        ray: &RayLanes<L>,
+        c: &cylinder::Lanes<L>,
+        limit: L,
+    ) -> L::Mask {
+        if doubt::is_exact::<L>() { lanes & !cylinder::is_beyond(ray, c, limit) } else { lanes }
     }
     #[inline(always)]
     fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
@@ -147,7 +175,7 @@ mod sealed {
 /// A precision tier. The program matches on [`TierName`] once, at the door; behind it the tier is a type.
 pub trait Tier: sealed::Sealed + Copy + Default + Send + Sync + 'static {
     /// Number type of rays, hits and shading.
-    type Real: Real;
+    type Real: Real + Stored<Self::Wide>;
     /// Eight of them.
     type Wide: Lane<Scalar = Self::Real, Bits = wide::u32x8>;
     /// The triangle test.

@@ -159,6 +159,36 @@ pub trait Lane:
     }
 }
 
+/// A number type that rays may be stored in, for lanes of the same or of a wider one.
+pub trait Stored<L: Lane>: Real {
+    /// The first eight values of a slice, exactly. **Panics** if it is shorter.
+    fn lanes(values: &[Self]) -> L;
+    /// The value as one lane holds it, exactly.
+    fn lane(self) -> L::Scalar;
+}
+
+impl<L: Lane> Stored<L> for f32 {
+    #[inline(always)]
+    fn lanes(values: &[Self]) -> L {
+        L::load_f32(values[..8].try_into().expect("eight lanes"))
+    }
+    #[inline(always)]
+    fn lane(self) -> L::Scalar {
+        L::Scalar::from_f32(self)
+    }
+}
+
+impl<L: Lane<Scalar = f64>> Stored<L> for f64 {
+    #[inline(always)]
+    fn lanes(values: &[Self]) -> L {
+        L::load(values)
+    }
+    #[inline(always)]
+    fn lane(self) -> f64 {
+        self
+    }
+}
+
 /// A lane of width one: `f32` or `f64`.
 pub trait Real: Lane<Scalar = Self, Mask = bool, Bits = u32, Double = f64> + PartialOrd + Default {
     /// Unit roundoff: half the distance from 1 to the next larger number.
@@ -171,8 +201,6 @@ pub trait Real: Lane<Scalar = Self, Mask = bool, Bits = u32, Double = f64> + Par
     fn to_f32(self) -> f32;
     /// Exact.
     fn from_f32(value: f32) -> Self;
-    /// Stored `f32` as they are, if that is this type.
-    fn of_f32(values: &[f32]) -> Option<&[Self]>;
-    /// The same, to be written.
+    /// Stored `f32` as they are, to be written, if that is this type.
     fn of_f32_mut(values: &mut [f32]) -> Option<&mut [Self]>;
 }

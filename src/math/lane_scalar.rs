@@ -170,10 +170,6 @@ macro_rules! scalar_lane {
                 value as $t
             }
             #[inline(always)]
-            fn of_f32(values: &[f32]) -> Option<&[Self]> {
-                bytemuck::checked::try_cast_slice(values).ok().filter(|_| size_of::<$t>() == size_of::<f32>())
-            }
-            #[inline(always)]
             fn of_f32_mut(values: &mut [f32]) -> Option<&mut [Self]> {
                 match size_of::<$t>() == size_of::<f32>() {
                     true => bytemuck::checked::try_cast_slice_mut(values).ok(),

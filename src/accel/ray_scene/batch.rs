@@ -1,4 +1,4 @@
-//! Rays as columns for a stream, in the number type of its tier, and room for what they hit.
+//! Rays as columns for a stream, and room for what they hit, in the number type of its tier.
 
 use super::is_usable;
 use crate::accel::stream::{Apex, Bound, HitColumns, RayColumns};
@@ -7,11 +7,11 @@ use crate::math::{Real, WIDTH};
 
 /// Some rays, and room for what they hit.
 #[derive(Default)]
-pub(crate) struct Batch<R> {
-    origin: [Vec<R>; 3],
-    direction: [Vec<R>; 3],
-    t_min: Vec<R>,
-    t_max: Vec<R>,
+pub(super) struct Batch<R> {
+    origin: [Vec<f32>; 3],
+    direction: [Vec<f32>; 3],
+    t_min: Vec<f32>,
+    t_max: Vec<f32>,
     apex: Option<Apex>,
     t: Vec<R>,
     u: Vec<R>,
@@ -35,25 +35,17 @@ impl<R: Real> Batch<R> {
         self.apex = first.reduce(|a, b| if a == b { a } else { [f32::NAN; 3] }).map(Apex::Origin);
     }
 
-    /// Takes rays in that are columns already: three of origins, three of directions, `t_min` and `t_max`.
-    pub(crate) fn load_columns(&mut self, columns: [&[f32]; 8]) {
-        for (to, from) in self.columns().zip(columns) {
-            to.clear();
-            to.extend(from.iter().map(|&x| R::from_f32(x)));
-        }
-    }
-
-    fn columns(&mut self) -> impl Iterator<Item = &mut Vec<R>> {
+    fn columns(&mut self) -> impl Iterator<Item = &mut Vec<f32>> {
         self.origin.iter_mut().chain(&mut self.direction).chain([&mut self.t_min, &mut self.t_max])
     }
 
     fn push(&mut self, ray: &Ray) {
         for k in 0..3 {
-            self.origin[k].push(R::from_f32(ray.origin[k]));
-            self.direction[k].push(R::from_f32(ray.direction[k]));
+            self.origin[k].push(ray.origin[k]);
+            self.direction[k].push(ray.direction[k]);
         }
-        self.t_min.push(R::from_f32(ray.t_min));
-        self.t_max.push(R::from_f32(ray.t_max));
+        self.t_min.push(ray.t_min);
+        self.t_max.push(ray.t_max);
     }
 
     /// What the rays may have in common: if the first two start at one point, maybe all do.
@@ -62,7 +54,7 @@ impl<R: Real> Batch<R> {
     }
 
     /// The rays, and room for their hits.
-    pub(crate) fn asked_for_hits(&mut self) -> (RayColumns<'_, R>, HitColumns<'_, R>) {
+    pub(super) fn asked_for_hits(&mut self) -> (RayColumns<'_, f32>, HitColumns<'_, R>) {
         let len = self.t_max.len();
         for column in [&mut self.t, &mut self.u, &mut self.v] {
             column.resize(len, R::default());
@@ -74,14 +66,14 @@ impl<R: Real> Batch<R> {
     }
 
     /// The rays, and room for a bit each.
-    pub(crate) fn asked_for_any(&mut self) -> (RayColumns<'_, R>, &mut [u8]) {
+    pub(super) fn asked_for_any(&mut self) -> (RayColumns<'_, f32>, &mut [u8]) {
         self.occluded.resize(self.t_max.len().div_ceil(WIDTH), 0);
         (rays(&self.origin, &self.direction, &self.t_min, &self.t_max), &mut self.occluded)
     }
 
     /// The hit of ray `i`.
-    pub(crate) fn hit(&self, i: usize) -> Option<Hit> {
-        (self.t[i] < self.t_max[i]).then(|| Hit {
+    pub(super) fn hit(&self, i: usize) -> Option<Hit> {
+        (self.t[i] < R::from_f32(self.t_max[i])).then(|| Hit {
             t: self.t[i].to_f32(),
             u: self.u[i].to_f32(),
             v: self.v[i].to_f32(),
@@ -91,17 +83,17 @@ impl<R: Real> Batch<R> {
     }
 
     /// Whether ray `i` hits anything.
-    pub(crate) fn is_occluded(&self, i: usize) -> bool {
+    pub(super) fn is_occluded(&self, i: usize) -> bool {
         self.occluded[i / WIDTH] >> (i % WIDTH) & 1 != 0
     }
 }
 
-fn rays<'a, R>(
-    origin: &'a [Vec<R>; 3],
-    direction: &'a [Vec<R>; 3],
-    t_min: &'a [R],
-    t_max: &'a [R],
-) -> RayColumns<'a, R> {
+fn rays<'a>(
+    origin: &'a [Vec<f32>; 3],
+    direction: &'a [Vec<f32>; 3],
+    t_min: &'a [f32],
+    t_max: &'a [f32],
+) -> RayColumns<'a, f32> {
     RayColumns {
         len: t_max.len(),
         origin: origin.each_ref().map(|c| &c[..]),

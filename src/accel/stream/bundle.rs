@@ -13,12 +13,12 @@ use crate::accel::Accel;
 use crate::accel::block::RaysByPrimitive;
 use crate::accel::descend::descend;
 use crate::accel::instance::TreeRoot;
-use crate::accel::leaf::{BlockVisitor, PreparedRays, TestRays, Testable, with_block};
+use crate::accel::leaf::{BlockVisitor, ForTriangles, PreparedRays, TestRays, Testable, with_block};
 use crate::accel::node::ChildRef;
 use crate::accel::pending::Pending;
 use crate::accel::query::Query;
 use crate::accel::{packet, single, unchecked};
-use crate::intersect::{RayLanes, Tier};
+use crate::intersect::{RayLanes, Tier, TriangleTest};
 use crate::math::{Mask, WIDTH, three};
 use wide::f32x8;
 
@@ -33,8 +33,8 @@ const SCATTERED: usize = 3 * WIDTH * WIDTH;
 
 /// What a worker keeps for bundles.
 pub(super) struct Workplace<T: Tier> {
-    /// Packets prepared for primitives when first tested, as many meet nothing; which of them are, as bits.
-    prepared: [TestRays<T>; WIDTH],
+    /// Packets prepared for triangles when first tested, as many meet none; which of them are, as bits.
+    prepared: [ForTriangles<T>; WIDTH],
     is_prepared: u32,
     /// Pairs of a primitive of a block and a packet.
     pairs: Candidates<{ room_for(WIDTH) }>,
@@ -48,7 +48,7 @@ pub(super) struct Workplace<T: Tier> {
 impl<T: Tier> Default for Workplace<T> {
     fn default() -> Self {
         Self {
-            prepared: [TestRays::new(super::no_rays()); WIDTH],
+            prepared: [T::Triangle::prepare(&super::no_rays()); WIDTH],
             is_prepared: 0,
             pairs: Candidates::default(),
             likely: [(Candidate::default(), 0); room_for(WIDTH)],
@@ -190,7 +190,9 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             self.work.pairs.push(i, packets);
             wanted |= packets;
         }
-        self.prepare(wanted);
+        if block.corners_of_triangles().is_some() {
+            self.prepare(wanted);
+        }
         let likely = self.find_likely(block);
         let accepted = self.ask_likely(block, likely);
         if accepted != 0 {
@@ -199,7 +201,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         accepted != 0
     }
 
-    /// Prepares packets for primitives.
+    /// Prepares packets for triangles.
     #[inline(always)]
     fn prepare(&mut self, packets: u32) {
         let mut left = packets & !self.work.is_prepared;
@@ -207,7 +209,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         while left != 0 {
             let j = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            self.work.prepared[j] = TestRays::new(self.rays[j]);
+            self.work.prepared[j] = T::Triangle::prepare(&self.rays[j]);
         }
     }
 
@@ -218,7 +220,9 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         let mut count = 0;
         for k in 0..work.pairs.len() {
             let pair = work.pairs.get(k);
-            let lanes = block.may_hit::<T, RaysByPrimitive>(pair.row(), &work.prepared[pair.lane()]).bits();
+            let j = pair.lane();
+            let rays = TestRays { ray: &self.rays[j], triangle: &work.prepared[j] };
+            let lanes = block.may_hit::<T, RaysByPrimitive>(pair.row(), &rays).bits();
             work.likely[count] = (pair, lanes);
             count += usize::from(lanes != 0);
         }
@@ -232,8 +236,13 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         for k in 0..count {
             let (pair, lanes) = self.work.likely[k];
             let (i, j) = (pair.row(), pair.lane());
-            let (rays, query) = (&self.work.prepared[j], &mut self.queries[j]);
-            let accepts = self.work.pending[j].ask((block, i), Mask::from_bits(lanes), rays, query);
+            let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
+            let query = &mut self.queries[j];
+            let lanes = block.needed::<T, RaysByPrimitive, Q>(i, Mask::from_bits(lanes), &rays, query);
+            if !lanes.any() {
+                continue;
+            }
+            let accepts = self.work.pending[j].ask((block, i), lanes, &rays, query);
             accepted |= u32::from(accepts) << j;
         }
         accepted
@@ -245,7 +254,8 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         while left != 0 {
             let j = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            self.work.pending[j].settle(&self.work.prepared[j], &mut self.queries[j]);
+            let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
+            self.work.pending[j].settle(&rays, &mut self.queries[j]);
         }
     }
 

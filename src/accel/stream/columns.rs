@@ -2,7 +2,7 @@
 
 use crate::accel::query::Closest;
 use crate::intersect::RayLanes;
-use crate::math::{BitLane, Lane, Mask, Real, Vec3, WIDTH};
+use crate::math::{BitLane, Lane, Mask, Real, Stored, Vec3, WIDTH};
 
 /// A bound of `t` that is the same for all rays, or a column of its own.
 #[derive(Clone, Copy, Debug)]
@@ -15,15 +15,18 @@ pub enum Bound<'a, R> {
 
 impl<R: Real> Bound<'_, R> {
     #[inline(always)]
-    fn load<L: Lane<Scalar = R>>(&self, at: usize) -> L {
+    fn load<L: Lane>(&self, at: usize) -> L
+    where
+        R: Stored<L>,
+    {
         match self {
-            Self::All(t) => L::splat(*t),
+            Self::All(t) => L::splat(t.lane()),
             Self::Each(column) => load(column, at),
         }
     }
 }
 
-/// Rays as columns.
+/// Rays as columns, in the number type of a tier or in a narrower one.
 ///
 /// **Shape:** columns hold at least `len` rows; what stands in the rows beyond is not asked. **Needs:** rays whose `t_max` is not minus infinity are finite and have a direction.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +46,10 @@ pub struct RayColumns<'a, R> {
 impl<R: Real> RayColumns<'_, R> {
     /// Eight rays from row `at` on; those beyond the end are turned off.
     #[inline(always)]
-    pub(super) fn load<L: Lane<Scalar = R>>(&self, at: usize) -> RayLanes<L> {
+    pub(super) fn load<L: Lane>(&self, at: usize) -> RayLanes<L>
+    where
+        R: Stored<L>,
+    {
         RayLanes {
             origin: load3(&self.origin, at),
             direction: load3(&self.direction, at),
@@ -53,7 +59,10 @@ impl<R: Real> RayColumns<'_, R> {
     }
 
     #[inline(always)]
-    fn t_max_at<L: Lane<Scalar = R>>(&self, at: usize) -> L {
+    fn t_max_at<L: Lane>(&self, at: usize) -> L
+    where
+        R: Stored<L>,
+    {
         let t_max = self.t_max.load::<L>(at);
         match self.len - at {
             count if count < WIDTH => {
@@ -65,7 +74,10 @@ impl<R: Real> RayColumns<'_, R> {
 
     /// The same to where they are kept: built elsewhere and copied in wider pieces, they wait for the stores to be done.
     #[inline(always)]
-    pub(super) fn load_to<L: Lane<Scalar = R>>(&self, at: usize, rays: &mut RayLanes<L>) {
+    pub(super) fn load_to<L: Lane>(&self, at: usize, rays: &mut RayLanes<L>)
+    where
+        R: Stored<L>,
+    {
         let (o, d) = (&mut rays.origin, &mut rays.direction);
         for (lane, column) in [&mut o.x, &mut o.y, &mut o.z].into_iter().zip(self.origin) {
             *lane = load(column, at);
@@ -79,22 +91,22 @@ impl<R: Real> RayColumns<'_, R> {
 }
 
 #[inline(always)]
-fn load3<L: Lane>(columns: &[&[L::Scalar]; 3], at: usize) -> Vec3<L> {
+fn load3<L: Lane, R: Stored<L>>(columns: &[&[R]; 3], at: usize) -> Vec3<L> {
     Vec3::new(load(columns[0], at), load(columns[1], at), load(columns[2], at))
 }
 
 /// Eight rows from `at` on; the last row stands in for those beyond the end.
 #[inline(always)]
-fn load<L: Lane>(column: &[L::Scalar], at: usize) -> L {
+fn load<L: Lane, R: Stored<L>>(column: &[R], at: usize) -> L {
     if at + WIDTH <= column.len() {
-        return L::load(&column[at..]);
+        return R::lanes(&column[at..]);
     }
     load_last(column, at)
 }
 
 #[cold]
-fn load_last<L: Lane>(column: &[L::Scalar], at: usize) -> L {
-    L::from_fn(|i| column[(at + i).min(column.len() - 1)])
+fn load_last<L: Lane, R: Stored<L>>(column: &[R], at: usize) -> L {
+    L::from_fn(|i| column[(at + i).min(column.len() - 1)].lane())
 }
 
 /// Nearest hits as columns.

@@ -27,7 +27,7 @@ use crate::accel::order::far_first;
 use crate::accel::query::Query;
 use crate::accel::unchecked::{self, Slots, Stacks};
 use crate::intersect::{LaneHit, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, WIDTH, eight};
+use crate::math::{Lane, Mask, Stored, WIDTH, eight};
 use seeds::Waiting;
 use slot::Slot;
 
@@ -78,14 +78,14 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
     }
 
     /// Answers the rays that go alone.
-    pub(super) fn trace<A: Answers<T, One = Q>>(
+    pub(super) fn trace<A: Answers<T, One = Q>, S: Stored<T::Wide>>(
         &mut self,
         accel: &Accel,
-        rays: &RayColumns<T::Real>,
+        rays: &RayColumns<S>,
         alone: &Alone,
         answers: &mut A,
     ) {
-        let Some(mut waiting) = Waiting::<T, A>::new(accel, rays, alone) else { return };
+        let Some(mut waiting) = Waiting::<T, A, S>::new(accel, rays, alone) else { return };
         self.fill(accel, &mut waiting);
         loop {
             self.node_pass(accel);
@@ -103,7 +103,11 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
     }
 
     /// Starts as many rays as there are slots.
-    fn fill<A: Answers<T, One = Q>>(&mut self, accel: &Accel, waiting: &mut Waiting<T, A>) {
+    fn fill<A: Answers<T, One = Q>, S: Stored<T::Wide>>(
+        &mut self,
+        accel: &Accel,
+        waiting: &mut Waiting<T, A, S>,
+    ) {
         self.stacks.make(SLOTS);
         for at in 0..SLOTS {
             let Some((seeds, i)) = waiting.next() else { return };
@@ -234,10 +238,10 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
     }
 
     /// Hands out the answers of the rays that are done and starts waiting ones.
-    fn refill<A: Answers<T, One = Q>>(
+    fn refill<A: Answers<T, One = Q>, S: Stored<T::Wide>>(
         &mut self,
         accel: &Accel,
-        waiting: &mut Waiting<T, A>,
+        waiting: &mut Waiting<T, A, S>,
         answers: &mut A,
     ) {
         for i in 0..self.done.len() {

@@ -16,7 +16,7 @@ use super::Accel;
 use super::query::{AnyHit, Closest, Query};
 use super::traversal::{Hint, Pace, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Lane, Vec3, WIDTH};
+use crate::math::{Lane, Stored, Vec3, WIDTH};
 use bundle::{Bundle, Stacks, Workplace};
 use flight::{Alone, Flight};
 
@@ -145,9 +145,9 @@ impl<'a, T: Tier> RayStream<'a, T> {
     }
 
     /// The nearest hit of each ray; a row whose `t` is still the ray's `t_max` has none.
-    pub fn closest(
+    pub fn closest<S: Stored<T::Wide>>(
         &mut self,
-        rays: &RayColumns<T::Real>,
+        rays: &RayColumns<S>,
         apex: Option<Apex>,
         hint: Hint,
         hits: &mut HitColumns<T::Real>,
@@ -156,13 +156,19 @@ impl<'a, T: Tier> RayStream<'a, T> {
     }
 
     /// Whether each ray hits anything: bit `i` of byte `k` for ray `8 k + i`.
-    pub fn any(&mut self, rays: &RayColumns<T::Real>, apex: Option<Apex>, hint: Hint, occluded: &mut [u8]) {
+    pub fn any<S: Stored<T::Wide>>(
+        &mut self,
+        rays: &RayColumns<S>,
+        apex: Option<Apex>,
+        hint: Hint,
+        occluded: &mut [u8],
+    ) {
         self.trace(rays, apex, hint, &mut Occluded(occluded));
     }
 
-    fn trace<A: Answers<T>>(
+    fn trace<A: Answers<T>, S: Stored<T::Wide>>(
         &mut self,
-        rays: &RayColumns<T::Real>,
+        rays: &RayColumns<S>,
         apex: Option<Apex>,
         hint: Hint,
         answers: &mut A,
@@ -204,9 +210,9 @@ impl<'a, T: Tier> Bundles<'a, T> {
     }
 
     /// Answers the packets from row `first` on, or notes the rows of rays that had better go alone.
-    fn trace<A: Answers<T>>(
+    fn trace<A: Answers<T>, S: Stored<T::Wide>>(
         &mut self,
-        rays: &RayColumns<T::Real>,
+        rays: &RayColumns<S>,
         first: usize,
         (apex, hint): (Option<Apex>, Hint),
         queries: &mut [A::Query; BUNDLE],

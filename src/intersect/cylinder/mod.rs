@@ -14,7 +14,7 @@ pub mod oracle;
 
 use crate::intersect::doubt;
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{Aabb, Lane, Mask, Real, Vec3, gamma};
+use crate::math::{Aabb, Lane, Mask, Real, Vec3, fused_dot, gamma};
 
 /// Cylinders as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -266,6 +266,20 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &Lanes<L>) -
     let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
     hit.mask = hit.mask & lanes;
     hit
+}
+
+/// Lanes whose rays certainly hit nothing at `limit` or before: there they are still outside of the side, and come nearer to the
+/// axis. Distances across are multiplied by its length, so that nothing is divided. NaN and infinities decide nothing.
+#[inline(always)]
+pub fn is_beyond<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>, limit: L) -> L::Mask {
+    let (axis, f, d) = (c.to - c.from, ray.origin - c.from, ray.direction);
+    let at = f + d * limit;
+    let (axis2, along_at, along_d) = (fused_dot(axis, axis), fused_dot(at, axis), fused_dot(d, axis));
+    let reach = c.radius * c.radius + doubt::rounding_at(limit, fused_dot(f, f), fused_dot(d, d));
+    let outside = (fused_dot(at, at) - reach) * axis2;
+    let nearing = fused_dot(at, d) * axis2;
+    let later = outside.gt(along_at * along_at) & nearing.lt(along_at * along_d) & ray.t_min.ge(L::zero());
+    later | limit.le(ray.t_min)
 }
 
 /// False only where the ray's line certainly passes the axis line at more than the radius: the distance is

@@ -331,3 +331,26 @@ fn the_exact_tier_decides_lines_along_the_axis_without_rounding() {
         [start, (c.to - c.from) + Vec3::splat(dice.heading()) * (tilt * c.radius)]
     });
 }
+
+/// Hits that a nearer one makes needless may be left out, no others, however close the two are.
+#[test]
+fn only_hits_beyond_the_limit_are_left_out() {
+    let mut dice = Dice(46);
+    let mut left_out = 0;
+    for _ in 0..50_000 {
+        let case = [anywhere, at_the_rim, along_the_axis][dice.below(3)];
+        let (r, c) = case(&mut dice);
+        let c = Lanes { from: c.from.widen(), to: c.to.widen(), radius: c.radius.into(), capped: c.capped };
+        let r = RayLanes { t_min: 0.0, ..r.widen() };
+        let hit = Filtered::cylinder(&r, &c);
+        if !hit.mask || hit.t <= 0.0 {
+            continue;
+        }
+        let off = [0.0, dice.magnitude(-17.0, -1.0)][dice.below(2)];
+        let limit = hit.t * (1.0 + off);
+        let within = Filtered::cylinder_within(true, &r, &c, limit);
+        assert!(within || hit.t > limit, "{hit:?} is not beyond {limit}: {c:?} by {r:?}");
+        left_out += usize::from(!within);
+    }
+    assert!(left_out > 1_000, "{left_out}");
+}

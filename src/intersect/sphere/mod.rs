@@ -13,9 +13,7 @@ pub mod oracle;
 use crate::intersect::doubt::{self, Doubt};
 use crate::intersect::oracle::number::Unit;
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{
-    Aabb, Lane, Ring, Vec3, fused_cross, fused_dot, gamma, pairs, ring_cross, ring_dot, sign, two_sum,
-};
+use crate::math::{Aabb, Lane, Ring, Vec3, fused_dot, gamma, pairs, ring_cross, ring_dot, sign, two_sum};
 
 /// Spheres as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -50,12 +48,12 @@ fn solve_rounded<L: Lane>(
 ) -> LaneHit<L> {
     let (f, d) = (ray.origin - s.center, ray.direction);
     let (a, b) = (d.length_squared(), f.dot(d));
-    let across = f - d * (b / a);
-    let r2 = s.radius * s.radius;
-    let discriminant = settle(Doubt::new(r2, across, doubt::size(f)));
+    let (r2, ff) = (s.radius * s.radius, f.length_squared());
+    let across2 = (f - d * (b / a)).length_squared();
+    let discriminant = settle(Doubt::new(r2, across2, ff));
     let mask = discriminant.ge(L::zero());
     let q = -(b + (a * discriminant).sqrt().with_sign_of(b));
-    let c = f.length_squared() - r2;
+    let c = ff - r2;
     let (near, far) = (q / a, c / q);
     // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
     let (near, far) = (round(far.min(near)), round(far.max(near)));
@@ -101,20 +99,32 @@ fn inside<N: Ring>(f: &[N; 3], d: &[N; 3], radius: &N) -> N {
     radius.squared().times(&ring_dot(d, d)).minus(&ring_dot(&n, &n))
 }
 
+/// Lanes whose rays certainly hit nothing at `limit` or before: there they are still outside, and come nearer. NaN and infinities
+/// decide nothing.
+#[inline(always)]
+pub fn is_beyond<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>, limit: L) -> L::Mask {
+    let (f, d) = (ray.origin - s.center, ray.direction);
+    let at = f + d * limit;
+    let reach = s.radius * s.radius + doubt::rounding_at(limit, fused_dot(f, f), fused_dot(d, d));
+    let outside = fused_dot(at, at).gt(reach) & fused_dot(at, d).lt(L::zero());
+    (outside & ray.t_min.ge(L::zero())) | limit.le(ray.t_min)
+}
+
 /// False only where the sphere is certainly missed. Written with `not greater`, so that overflow, underflow and NaN
 /// count as doubt.
 #[inline(always)]
 pub fn may_hit<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {
     let (f, d) = (ray.origin - s.center, ray.direction);
     let (a, b, ff) = (fused_dot(d, d), fused_dot(f, d), fused_dot(f, f));
-    let n = fused_cross(f, d);
-    // Lagrange: |f x d| = |d| times the distance of the line. Its components are off by at most gamma(3) |f| |d|, so its
-    // square by less than gamma(24) |f|^2 |d|^2; the slack is twice that and more.
-    let slack = ff * L::constant(f64::from(4.0 * gamma(16))) + L::constant(f64::from(f32::MIN_POSITIVE));
+    // Lagrange: |f|^2 |d|^2 - (f.d)^2 = |f x d|^2 is |d|^2 times the squared distance of the line. Either term is off by less
+    // than gamma(9) |f|^2 |d|^2; the slack is three times what both may be.
+    let (size, slack) =
+        (ff * a, ff * L::constant(f64::from(4.0 * gamma(16))) + L::constant(f64::from(f32::MIN_POSITIVE)));
     let reach = s.radius * s.radius + slack;
-    let misses = fused_dot(n, n).gt(reach * a);
+    let misses = (size - b * b).gt(reach * a);
     let behind = b.gt(L::zero()) & ff.gt(reach + slack) & ray.t_min.ge(L::zero());
-    let in_range = a.gt(L::constant(1e-30)) & a.lt(L::constant(1e30));
+    // Elsewhere products may overflow, or lose more to underflow than the slack allows for.
+    let in_range = size.gt(L::constant(1e-36)) & size.lt(L::constant(1e36));
     !((misses | behind) & in_range)
 }
 

@@ -164,3 +164,38 @@ fn the_exact_tier_decides_tangents_without_rounding() {
     }
     assert!(counts.iter().all(|&n| n > 100), "misses, hits, and those that f64 gets wrong: {counts:?}");
 }
+
+/// A line of the exact tier past a sphere, half of them within 1e-3 to 1e-16 radii of tangency.
+fn past(dice: &mut Dice) -> (RayLanes<f64>, Lanes<f64>) {
+    let away = [0.0, 1.5, 1e3, 1e8][dice.below(4)];
+    let (r, s) = seen_from(dice, away);
+    let s = Lanes { center: s.center.widen(), radius: f64::from(s.radius) };
+    if dice.below(2) == 0 {
+        return (RayLanes { t_min: 0.0, ..r.widen() }, s);
+    }
+    let aside = Vec3::<f64>::splat(dice.heading());
+    let along = aside.cross(Vec3::splat(dice.heading())).normalize();
+    let touch = s.center + aside * (s.radius * (1.0 - dice.magnitude(-16.0, -3.0).abs()));
+    let origin = touch - along * (s.radius * dice.magnitude(-3.0, 8.0).abs());
+    (ray(origin.get(0), along.get(0)), s)
+}
+
+/// Hits that a nearer one makes needless may be left out, no others, however close the two are.
+#[test]
+fn only_hits_beyond_the_limit_are_left_out() {
+    let mut dice = Dice(36);
+    let mut left_out = 0;
+    for _ in 0..50_000 {
+        let (r, s) = past(&mut dice);
+        let hit = Filtered::sphere(&r, &s);
+        if !hit.mask || hit.t <= 0.0 {
+            continue;
+        }
+        let off = [0.0, dice.magnitude(-17.0, -1.0)][dice.below(2)];
+        let limit = hit.t * (1.0 + off);
+        let within = Filtered::sphere_within(true, &r, &s, limit);
+        assert!(within || hit.t > limit, "{hit:?} is not beyond {limit}: {s:?} by {r:?}");
+        left_out += usize::from(!within);
+    }
+    assert!(left_out > 1_000, "{left_out}");
+}

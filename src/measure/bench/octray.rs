@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 use super::engine::Engine;
 use super::rays::{HitColumns, NO_HIT, RayColumns};
 use crate::accel::stream::{self, Bound, RayStream};
-use crate::accel::{Accel, Batch, Hint, Traversal};
+use crate::accel::{Accel, Hint, Traversal};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{BitLane, Lane, Real, Vec3, WIDTH};
 
@@ -50,68 +50,57 @@ impl<'a, T: Tier> Octray<'a, T> {
 /// Rays that a worker of the renderer takes at a time.
 const WAVE: usize = 1024;
 
-/// The columns of some rays, as a batch takes them.
-fn columns<'r>(rays: &RayColumns<'r>) -> [&'r [f32]; 8] {
-    let ([ox, oy, oz], [dx, dy, dz]) = (rays.origin, rays.direction);
-    [ox, oy, oz, dx, dy, dz, rays.t_min, rays.t_max]
+/// The columns of some rays, as a stream takes them.
+fn columns<'r>(rays: &RayColumns<'r>) -> stream::RayColumns<'r, f32> {
+    stream::RayColumns {
+        len: rays.len(),
+        origin: rays.origin,
+        direction: rays.direction,
+        t_min: Bound::Each(rays.t_min),
+        t_max: Bound::Each(rays.t_max),
+    }
 }
 
-/// The columns as they are, where they are of a tier's number type.
-fn as_they_are<'r, R: Real>(rays: &RayColumns<'r>) -> Option<stream::RayColumns<'r, R>> {
-    let three = |c: [&'r [f32]; 3]| Some([R::of_f32(c[0])?, R::of_f32(c[1])?, R::of_f32(c[2])?]);
-    Some(stream::RayColumns {
-        len: rays.len(),
-        origin: three(rays.origin)?,
-        direction: three(rays.direction)?,
-        t_min: Bound::Each(R::of_f32(rays.t_min)?),
-        t_max: Bound::Each(R::of_f32(rays.t_max)?),
-    })
+/// Puts the sign of no hit where `t` is still the ray's `t_max`.
+fn mark_misses<R: Real>(t: &[R], t_max: &[f32], prim: &mut [u32]) {
+    for ((t, &t_max), prim) in t.iter().zip(t_max).zip(prim) {
+        *prim = if *t < R::from_f32(t_max) { *prim } else { NO_HIT };
+    }
 }
 
 /// Streams of rays, as the renderer sends them.
 impl<T: Tier> Octray<'_, T> {
     fn closest_in_streams(&self, rays: &RayColumns<'_>, hits: &mut HitColumns<'_>) {
         let mut stream = RayStream::<T>::new(self.accel);
-        let mut batch = Batch::<T::Real>::default();
-        let (mut u, mut v) = ([T::Real::default(); WAVE], [T::Real::default(); WAVE]);
+        let mut room = [[T::Real::default(); WAVE]; 3];
         for first in (0..rays.len()).step_by(WAVE) {
             let part = rays.slice(first..rays.len().min(first + WAVE));
             let (t, prim) = (&mut hits.t[first..][..part.len()], &mut hits.prim[first..][..part.len()]);
-            match (as_they_are(&part), T::Real::of_f32_mut(t)) {
-                (Some(columns), Some(t)) => {
-                    let (u, v) = (&mut u[..part.len()], &mut v[..part.len()]);
-                    let mut found =
-                        stream::HitColumns { t: &mut *t, u, v, prim: &mut *prim, instance: &mut [] };
-                    stream.closest(&columns, rays.apex, self.hint, &mut found);
-                    for ((t, t_max), prim) in t.iter().zip(part.t_max).zip(prim) {
-                        *prim = if t.to_f32() < *t_max { *prim } else { NO_HIT };
-                    }
+            let [wide_t, u, v] = room.each_mut().map(|column| &mut column[..part.len()]);
+            let mut ask = |t: &mut [T::Real]| {
+                let mut found = stream::HitColumns { t, u, v, prim: &mut *prim, instance: &mut [] };
+                stream.closest(&columns(&part), rays.apex, self.hint, &mut found);
+            };
+            match T::Real::of_f32_mut(t) {
+                Some(t) => {
+                    ask(t);
+                    mark_misses(t, part.t_max, prim);
                 }
-                _ => {
-                    batch.load_columns(columns(&part));
-                    let (rows, mut found) = batch.asked_for_hits();
-                    stream.closest(&rows, rays.apex, self.hint, &mut found);
-                    for (i, (t, prim)) in t.iter_mut().zip(prim).enumerate() {
-                        let hit = batch.hit(i).map(|hit| (hit.t, hit.prim.0));
-                        (*t, *prim) = hit.unwrap_or((part.t_max[i], NO_HIT));
-                    }
+                None => {
+                    ask(wide_t);
+                    mark_misses(wide_t, part.t_max, prim);
+                    t.iter_mut().zip(wide_t).for_each(|(t, wide)| *t = wide.to_f32());
                 }
             }
         }
     }
 
     fn any_in_streams(&self, rays: &RayColumns<'_>, occluded: &mut [bool]) {
-        let (mut stream, mut batch) = (RayStream::<T>::new(self.accel), Batch::<T::Real>::default());
+        let mut stream = RayStream::<T>::new(self.accel);
         let mut bits = [0; WAVE / WIDTH];
         for (first, occluded) in (0..rays.len()).step_by(WAVE).zip(occluded.chunks_mut(WAVE)) {
             let part = rays.slice(first..first + occluded.len());
-            match as_they_are(&part) {
-                Some(columns) => stream.any(&columns, rays.apex, self.hint, &mut bits),
-                None => {
-                    batch.load_columns(columns(&part));
-                    stream.any(&batch.asked_for_any().0, rays.apex, self.hint, &mut bits);
-                }
-            }
+            stream.any(&columns(&part), rays.apex, self.hint, &mut bits);
             for (i, occluded) in occluded.iter_mut().enumerate() {
                 *occluded = bits[i / WIDTH] >> (i % WIDTH) & 1 != 0;
             }

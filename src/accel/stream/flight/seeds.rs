@@ -10,7 +10,7 @@ use crate::accel::leaf::cull_rays;
 use crate::accel::query::Query;
 use crate::accel::traversal::ask_planes;
 use crate::intersect::{RayLanes, Tier};
-use crate::math::WIDTH;
+use crate::math::{Stored, WIDTH};
 
 /// Eight rays and all that their way down the tree needs to know of them.
 pub(super) struct Seeds<T: Tier, A: Answers<T>> {
@@ -25,7 +25,7 @@ pub(super) struct Seeds<T: Tier, A: Answers<T>> {
 impl<T: Tier, A: Answers<T>> Seeds<T, A> {
     /// The rays from a row on.
     #[inline(always)]
-    pub(super) fn new(accel: &Accel, rays: &RayColumns<T::Real>, first: u32) -> Self {
+    pub(super) fn new<S: Stored<T::Wide>>(accel: &Accel, rays: &RayColumns<S>, first: u32) -> Self {
         let rays: RayLanes<T::Wide> = rays.load(first as usize);
         let mut queries = A::ask(&rays);
         ask_planes(accel, &rays, &mut queries);
@@ -70,9 +70,9 @@ impl Alone {
 }
 
 /// Rays that wait, of which up to eight are prepared.
-pub(super) struct Waiting<'r, T: Tier, A: Answers<T>> {
+pub(super) struct Waiting<'r, T: Tier, A: Answers<T>, S> {
     accel: &'r Accel,
-    rays: &'r RayColumns<'r, T::Real>,
+    rays: &'r RayColumns<'r, S>,
     runs: std::slice::Iter<'r, u32>,
     seeds: Seeds<T, A>,
     /// Lanes of the seeds that have started, and how many are to.
@@ -80,9 +80,9 @@ pub(super) struct Waiting<'r, T: Tier, A: Answers<T>> {
     count: usize,
 }
 
-impl<'r, T: Tier, A: Answers<T>> Waiting<'r, T, A> {
+impl<'r, T: Tier, A: Answers<T>, S: Stored<T::Wide>> Waiting<'r, T, A, S> {
     /// `None` without any.
-    pub(super) fn new(accel: &'r Accel, rays: &'r RayColumns<'r, T::Real>, alone: &'r Alone) -> Option<Self> {
+    pub(super) fn new(accel: &'r Accel, rays: &'r RayColumns<'r, S>, alone: &'r Alone) -> Option<Self> {
         let mut runs = alone.runs.iter();
         let first = *runs.next()?;
         let seeds = Seeds::new(accel, rays, first);

@@ -147,7 +147,8 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
 impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
     #[inline(never)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let rays = TestRays::new(RayLanes::splat(&self.test.ray));
+        let ray = RayLanes::splat(&self.test.ray);
+        let rays = TestRays { triangle: &T::Triangle::prepare(&ray), ray: &ray };
         let limit = T::Wide::splat(self.query.limit());
         let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays);
         if !lanes.any() {

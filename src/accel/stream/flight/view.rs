@@ -2,7 +2,7 @@
 
 use wide::f32x8;
 
-use crate::accel::leaf::TestRays;
+use crate::accel::leaf::ForTriangles;
 use crate::accel::node::Node8;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::{RayLanes, Tier, TriangleTest};
@@ -34,7 +34,8 @@ pub(super) struct View<T: Tier> {
 
 /// Eight rays, each in a space of its own or all in one.
 pub(super) struct Views<T: Tier> {
-    rays: TestRays<T>,
+    rays: RayLanes<T::Wide>,
+    triangle: ForTriangles<T>,
     cull: CullRay<f32x8>,
     /// By axis, lanes that go against it.
     backward: [u32; 3],
@@ -44,7 +45,7 @@ impl<T: Tier> Views<T> {
     /// Rays, and the same for boxes.
     #[inline(always)]
     pub(super) fn new(rays: RayLanes<T::Wide>, cull: CullRay<f32x8>) -> Self {
-        Self { rays: TestRays::new(rays), backward: cull.backward().map(Mask::bits), cull }
+        Self { triangle: T::Triangle::prepare(&rays), rays, backward: cull.backward().map(Mask::bits), cull }
     }
 
     /// Ray `i`.
@@ -52,8 +53,8 @@ impl<T: Tier> Views<T> {
     pub(super) fn get(&self, i: usize) -> View<T> {
         let [x, y, z] = self.backward.map(|lanes| lanes >> i & 1);
         let octant = x | y << 1 | z << 2;
-        let ray = self.rays.ray.get(i);
-        let triangle = T::Triangle::one_of(&ray, &self.rays.triangle, i);
+        let ray = self.rays.get(i);
+        let triangle = T::Triangle::one_of(&ray, &self.triangle, i);
         let planes = Node8::PLANES[octant as usize];
         View {
             aim: Aim { cull: self.cull.get(i), planes, octant: octant as u8 },
