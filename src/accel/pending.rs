@@ -39,7 +39,8 @@ impl<T: Tier> Pending<T> {
     ) -> bool {
         let Some((seen, corners)) = block.glimpse::<T, RaysByPrimitive>(i, rays) else {
             self.settle(rays, query);
-            return block.ask::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
+            let needed = block.needed::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
+            return needed.any() && block.ask::<T, RaysByPrimitive, Q>(i, needed, rays, query);
         };
         let (certain, unclear) = self.sort(lanes, &seen, rays.ray.t_min, query.limit());
         let mut accepted = certain.any();

@@ -238,11 +238,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             let (i, j) = (pair.row(), pair.lane());
             let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
             let query = &mut self.queries[j];
-            let lanes = block.needed::<T, RaysByPrimitive, Q>(i, Mask::from_bits(lanes), &rays, query);
-            if !lanes.any() {
-                continue;
-            }
-            let accepts = self.work.pending[j].ask((block, i), lanes, &rays, query);
+            let accepts = self.work.pending[j].ask((block, i), Mask::from_bits(lanes), &rays, query);
             accepted |= u32::from(accepts) << j;
         }
         accepted
