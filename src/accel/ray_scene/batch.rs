@@ -31,8 +31,11 @@ impl<R: Real> Batch<R> {
             way = if usable { ray } else { Ray { t_max: f32::NEG_INFINITY, ..way } };
             self.push(&way);
         }
-        let first = rays.iter().take(2).map(|ray| ray.origin);
-        self.apex = first.reduce(|a, b| if a == b { a } else { [f32::NAN; 3] }).map(Apex::Origin);
+        self.apex = match rays {
+            [a, b, ..] if a.origin == b.origin => Some(Apex::Origin(a.origin)),
+            [a, b, ..] if a.direction == b.direction => Some(Apex::Parallel),
+            _ => None,
+        };
     }
 
     fn columns(&mut self) -> impl Iterator<Item = &mut Vec<f32>> {
@@ -48,9 +51,9 @@ impl<R: Real> Batch<R> {
         self.t_max.push(ray.t_max);
     }
 
-    /// What the rays may have in common: if the first two start at one point, maybe all do.
+    /// What the rays may have in common: if the first two start at one point, or go the same way, maybe all do.
     pub(super) fn apex(&self) -> Option<Apex> {
-        self.apex.filter(|apex| !matches!(apex, Apex::Origin([x, ..]) if x.is_nan()))
+        self.apex
     }
 
     /// The rays, and room for their hits.

@@ -143,6 +143,27 @@ fn rays_that_are_no_rays_miss_and_leave_their_neighbours_alone() {
 }
 
 #[test]
+fn rays_that_are_all_parallel_or_nearly_all_answer_as_each_alone() {
+    let (scene, mut dice) = (row(), Dice(11));
+    let start = |dice: &mut Dice| {
+        let [x, y, z] = dice.point().map(|x| x as f32);
+        Ray::new([1.5 * x, 1.5 * y, z - 4.0], [0.1, -0.05, 1.0])
+    };
+    let mut rays: Vec<Ray> = (0..200).map(|_| start(&mut dice)).collect();
+    for spoiled in [false, true] {
+        if spoiled {
+            rays[70].direction = [0.3, 0.1, 0.5];
+        }
+        for tier in TIERS {
+            let together = closest(&scene, &rays, tier, Hint::Auto);
+            let alone: Vec<_> = rays.iter().flat_map(|&r| closest(&scene, &[r], tier, Hint::Auto)).collect();
+            assert_eq!(together, alone);
+            assert!(together.iter().flatten().count() > 50);
+        }
+    }
+}
+
+#[test]
 fn an_empty_scene_is_missed() {
     let scene = RaySceneBuilder::new().build();
     let mut hits = [None; 9];

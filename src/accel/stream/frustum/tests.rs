@@ -89,7 +89,7 @@ fn answers(frustum: &Frustum, extents: &[Extent; WIDTH]) -> (u32, [u32; WIDTH]) 
 
 #[test]
 fn what_a_ray_meets_is_not_culled_and_most_of_the_rest_is() {
-    let (mut beams, mut met, mut kept, mut missed) = (0, 0, 0, 0);
+    let (mut beams, mut parallel, mut met, mut kept, mut missed) = (0, 0, 0, 0, 0);
     for seed in 0..3_000 {
         let dice = &mut Dice(seed);
         let (rays, apex) = beam(dice);
@@ -97,6 +97,7 @@ fn what_a_ray_meets_is_not_culled_and_most_of_the_rest_is() {
             continue;
         };
         beams += 1;
+        parallel += usize::from(apex == Apex::Parallel);
         let extents: [Extent; WIDTH] = std::array::from_fn(|_| on_the_way(&rays, dice));
         let (seen, packets) = answers(&frustum, &extents);
         for (i, extent) in extents.iter().enumerate() {
@@ -111,6 +112,7 @@ fn what_a_ray_meets_is_not_culled_and_most_of_the_rest_is() {
             }
         }
     }
+    assert!(parallel > 500, "{parallel} parallel beams");
     assert!(beams > 1_000 && met > 10_000, "{beams} beams, {met} met");
     assert!(missed > 1_000 && kept < missed / 2, "{kept} of {missed} boxes are kept that no ray meets");
 }
