@@ -118,18 +118,6 @@ pub(super) trait Testable: Block {
     }
 }
 
-/// Of lanes that may hit, those that still ask, or those that may hit before what was found.
-#[inline(always)]
-fn needed<T: Tier, Q: Query<T::Wide>>(
-    lanes: Lanes<T>,
-    rays: &TestRays<T>,
-    query: &Q,
-    within: impl FnOnce(T::Wide) -> Lanes<T>,
-) -> Lanes<T> {
-    let limit = query.limit();
-    if Q::ANY { lanes & limit.gt(rays.ray.t_min) } else { within(limit) }
-}
-
 impl Testable for TriangleBlock {
     #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
@@ -154,67 +142,47 @@ impl Testable for TriangleBlock {
     }
 }
 
-impl Testable for SphereBlock {
-    #[inline(always)]
-    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        query: &Q,
-    ) -> Lanes<T> {
-        needed::<T, Q>(lanes, rays, query, |limit| {
-            T::Curved::sphere_within(lanes, rays.ray, &self.spheres::<W, _>(step), limit)
-        })
-    }
+/// Curved primitives are met alike, each kind by functions of its own.
+macro_rules! curved {
+    ($block:ty, $primitives:ident, $may_hit:ident, $within:ident, $hit:ident) => {
+        impl Testable for $block {
+            #[inline(always)]
+            fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
+                T::Curved::$may_hit(rays.ray, &self.$primitives::<W, _>(step))
+            }
 
-    #[inline(always)]
-    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Curved::may_hit_sphere(rays.ray, &self.spheres::<W, _>(step))
-    }
+            #[inline(always)]
+            fn hit<T: Tier, W: Walk>(
+                &self,
+                step: usize,
+                lanes: Lanes<T>,
+                rays: &TestRays<T>,
+                _: T::Wide,
+            ) -> LaneHit<T::Wide> {
+                T::Curved::$hit(lanes, rays.ray, &self.$primitives::<W, _>(step))
+            }
 
-    #[inline(always)]
-    fn hit<T: Tier, W: Walk>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        _: T::Wide,
-    ) -> LaneHit<T::Wide> {
-        T::Curved::hit_sphere(lanes, rays.ray, &self.spheres::<W, _>(step))
-    }
+            /// Lanes that still ask, or those that may hit before what was found.
+            #[inline(always)]
+            fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
+                &self,
+                step: usize,
+                lanes: Lanes<T>,
+                rays: &TestRays<T>,
+                query: &Q,
+            ) -> Lanes<T> {
+                let limit = query.limit();
+                match Q::ANY {
+                    true => lanes & limit.gt(rays.ray.t_min),
+                    false => T::Curved::$within(lanes, rays.ray, &self.$primitives::<W, _>(step), limit),
+                }
+            }
+        }
+    };
 }
 
-impl Testable for CylinderBlock {
-    #[inline(always)]
-    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        query: &Q,
-    ) -> Lanes<T> {
-        needed::<T, Q>(lanes, rays, query, |limit| {
-            T::Curved::cylinder_within(lanes, rays.ray, &self.cylinders::<W, _>(step), limit)
-        })
-    }
-
-    #[inline(always)]
-    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Curved::may_hit_cylinder(rays.ray, &self.cylinders::<W, _>(step))
-    }
-
-    #[inline(always)]
-    fn hit<T: Tier, W: Walk>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        _: T::Wide,
-    ) -> LaneHit<T::Wide> {
-        T::Curved::hit_cylinder(lanes, rays.ray, &self.cylinders::<W, _>(step))
-    }
-}
+curved!(SphereBlock, spheres, may_hit_sphere, sphere_within, hit_sphere);
+curved!(CylinderBlock, cylinders, may_hit_cylinder, cylinder_within, hit_cylinder);
 
 /// What is done with the block of a leaf, whatever its kind.
 pub(super) trait BlockVisitor {

@@ -55,7 +55,7 @@ fn splat<L: Lane>(v: [f64; 3]) -> Vec3<L> {
 }
 
 impl Camera {
-    /// Where all rays come from, if it is one place.
+    /// What all rays have in common: the point that they start from, or their direction; nothing behind a lens.
     pub fn apex(&self) -> Option<Apex> {
         match self.projection {
             Projection::Pinhole => Some(Apex::Origin(self.position.map(|x| x as f32))),

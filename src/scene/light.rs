@@ -35,7 +35,7 @@ impl Light {
         }
     }
 
-    /// Where rays along `to_light` meet.
+    /// What rays along `to_light` have in common: the point that they meet in, or their direction.
     pub fn apex(&self) -> Apex {
         match self {
             Self::Point(light) => Apex::Target(light.position),

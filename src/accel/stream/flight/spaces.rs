@@ -1,4 +1,4 @@
-//! Rays on their way into the spaces of instances, eight at a time, and back.
+//! Rays on their way into the spaces of instances, eight at a time.
 
 use wide::{f32x8, u32x8};
 
@@ -21,6 +21,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             let placed = eight(|i| accel.placed(self.slots[at[i]].next));
             let rays = RayLanes::<T::Wide>::gather(|i| self.slots[at[i]].ray());
             let local = Accel::local_to_each(&placed, &rays);
+            // Groups hold no instances, so nothing beyond their own size counts, wherever rays start.
             let scale = f32x8::from_fn(|i| placed[i].tree.scale);
             let views = Views::<T>::new(local, cull_rays_by::<T>(&local, |_| scale));
             for i in 0..WIDTH.min(count - first) {
