@@ -130,14 +130,14 @@ impl Frustum {
             let slopes = Slopes { a: [lo.x - pad, hi.x + pad], b: [lo.y - pad, hi.y + pad] };
             return Sight { slopes, nearest: lo.z };
         }
-        let nearest = lo.z.max(self.first - self.side_pad);
+        let nearest = Lane::max(lo.z, self.first - self.side_pad);
         let (at_near, at_far) = (f32x8::ONE / nearest, f32x8::ONE / hi.z);
         let infinity = f32x8::splat(f32::INFINITY);
         let in_front = nearest.gt(self.side_pad) & at_near.lt(infinity);
         let pad = self.side_pad * at_near;
         let range = |lo: f32x8, hi: f32x8| {
-            let least = (lo * at_near).min(lo * at_far) - pad;
-            let greatest = (hi * at_near).max(hi * at_far) + pad;
+            let least = Lane::min(lo * at_near, lo * at_far) - pad;
+            let greatest = Lane::max(hi * at_near, hi * at_far) + pad;
             [Lane::select(in_front, least, -infinity), Lane::select(in_front, greatest, infinity)]
         };
         Sight { slopes: Slopes { a: range(lo.x, hi.x), b: range(lo.y, hi.y) }, nearest: lo.z }
@@ -170,14 +170,13 @@ impl Frustum {
         let beside = if self.view.lean.is_some() {
             slopes.apart([lo.x, hi.x], [lo.y, hi.y])
         } else {
-            let above = |x: f32x8, slope: f32x8| x - (slope * lo.z).max(slope * hi.z);
-            let below = |x: f32x8, slope: f32x8| (slope * lo.z).min(slope * hi.z) - x;
-            above(lo.x, slopes.a[1])
-                .max(below(hi.x, slopes.a[0]))
-                .max(above(lo.y, slopes.b[1]))
-                .max(below(hi.y, slopes.b[0]))
+            let above = |x: f32x8, slope: f32x8| x - Lane::max(slope * lo.z, slope * hi.z);
+            let below = |x: f32x8, slope: f32x8| Lane::min(slope * lo.z, slope * hi.z) - x;
+            let beside_x = Lane::max(above(lo.x, slopes.a[1]), below(hi.x, slopes.a[0]));
+            let beside_y = Lane::max(above(lo.y, slopes.b[1]), below(hi.y, slopes.b[0]));
+            Lane::max(beside_x, beside_y)
         };
-        let outside = beside.max(self.first - hi.z);
+        let outside = Lane::max(beside, self.first - hi.z);
         (outside.le(pad) & lo.z.le(reach)).bits()
     }
 

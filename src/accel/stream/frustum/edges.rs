@@ -39,14 +39,15 @@ impl Edges {
         let range = |n: Vec3<f32x8>| {
             let (a0, a1) = (slopes.a[0] * n.x, slopes.a[1] * n.x);
             let (b0, b1) = (slopes.b[0] * n.y, slopes.b[1] * n.y);
-            (n.z + a0.min(a1) + b0.min(b1), n.z + a0.max(a1) + b0.max(b1))
+            let least = n.z + Lane::min(a0, a1) + Lane::min(b0, b1);
+            (least, n.z + Lane::max(a0, a1) + Lane::max(b0, b1))
         };
         let (r0, r1, r2, whole) = (range(n0), range(n1), range(n2), range(n0 + n1 + n2));
         // Seen by all from the front, or by all from the back: only then does a sign tell the side.
         let front = whole.0.gt(pad * f32x8::splat(4.0));
         let back = whole.1.lt(pad * f32x8::splat(-4.0));
-        let least_of_greatest = r0.1.min(r1.1).min(r2.1);
-        let greatest_of_least = r0.0.max(r1.0).max(r2.0);
+        let least_of_greatest = Lane::min(Lane::min(r0.1, r1.1), r2.1);
+        let greatest_of_least = Lane::max(Lane::max(r0.0, r1.0), r2.0);
         let missed = (front & least_of_greatest.lt(-pad)) | (back & greatest_of_least.gt(pad));
         // The volume is off by less than the pad at the farthest corner.
         let slack = pad * self.farthest;

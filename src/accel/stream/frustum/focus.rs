@@ -62,7 +62,7 @@ impl Beam {
             self.aa += a * a;
             self.ac += a * c;
         }
-        self.nearest = self.nearest.min(counts(from.z));
+        self.nearest = Lane::min(self.nearest, counts(from.z));
     }
 
     /// Where the rays come closest to each other, no farther behind than `farthest` and before any of them starts.

@@ -30,8 +30,8 @@ impl Slopes {
     /// How far they are from others, at most zero where they have some in common.
     #[inline(always)]
     pub(super) fn apart(&self, a: [f32x8; 2], b: [f32x8; 2]) -> f32x8 {
-        let [x, y] = [(self.a, a), (self.b, b)].map(|(s, o)| (o[0] - s[1]).max(s[0] - o[1]));
-        x.max(y)
+        let [x, y] = [(self.a, a), (self.b, b)].map(|(s, o)| Lane::max(o[0] - s[1], s[0] - o[1]));
+        Lane::max(x, y)
     }
     /// Lanes in which these reach over more than the others, one way or the other.
     #[inline(always)]
@@ -48,7 +48,7 @@ impl Slopes {
     /// How much those of the first lane differ.
     pub(super) fn widest(&self) -> f32 {
         let wide = |s: [f32x8; 2]| s[1] - s[0];
-        wide(self.a).max(wide(self.b)).get(0)
+        Lane::max(wide(self.a), wide(self.b)).get(0)
     }
     /// Relative to those of the middle.
     #[inline(always)]

@@ -81,7 +81,7 @@ impl View {
         let Some([x, y]) = self.lean else { return [lo, hi] };
         let across = |slope: f32, least: f32x8, greatest: f32x8| {
             let (near, far) = (f32x8::splat(slope) * lo.z, f32x8::splat(slope) * hi.z);
-            [least - near.max(far), greatest - near.min(far)]
+            [least - Lane::max(near, far), greatest - Lane::min(near, far)]
         };
         let ([x0, x1], [y0, y1]) = (across(x, lo.x, hi.x), across(y, lo.y, hi.y));
         [Vec3::new(x0, y0, lo.z), Vec3::new(x1, y1, hi.z)]
