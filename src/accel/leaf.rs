@@ -69,9 +69,6 @@ pub(super) fn cull_rays_by<T: Tier>(
 /// Lanes of eight rays of a tier.
 pub(super) type Lanes<T> = <<T as Tier>::Wide as Lane>::Mask;
 
-/// What is certain of meetings with triangles, and their corners.
-pub(super) type Seen<T> = (Glimpse<<T as Tier>::Wide>, [Vec3<<T as Tier>::Wide>; 3]);
-
 /// A block that rays of a tier can be tested against.
 pub(super) trait Testable: Block {
     /// Lanes whose rays may hit the primitives at a step of the walk, as far as is cheap to tell.
@@ -100,7 +97,7 @@ pub(super) trait Testable: Block {
 
     /// What is certain without meeting them, where there is a cheap way to tell.
     #[inline(always)]
-    fn glimpse<T: Tier, W: Walk>(&self, _step: usize, _: &TestRays<T>) -> Option<Seen<T>> {
+    fn glimpse<T: Tier, W: Walk>(&self, _step: usize, _: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
         None
     }
 
@@ -136,9 +133,8 @@ impl Testable for TriangleBlock {
     }
 
     #[inline(always)]
-    fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Seen<T>> {
-        let corners = self.corners::<W, _>(step);
-        Some((T::Triangle::glimpse(rays.ray, rays.triangle, corners)?, corners))
+    fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
+        T::Triangle::glimpse(rays.ray, rays.triangle, self.corners::<W, _>(step))
     }
 }
 

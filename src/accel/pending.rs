@@ -3,12 +3,12 @@
 //! Plainly: of each hit the distance is found in `f64`, and the nearest counts. Departure: where bounds on the distance
 //! tell which of two hits is nearer, the distance waits, and is found for the nearest alone.
 
-use super::block::RaysByPrimitive;
+use super::block::{RaysByPrimitive, Walk};
 use super::leaf::{Lanes, TestRays, Testable};
 use super::query::Query;
 use crate::intersect::triangle::Glimpse;
 use crate::intersect::{LaneHit, Tier, TriangleTest};
-use crate::math::{BitLane, Lane, Mask, Vec3};
+use crate::math::{BitLane, Lane, Mask, Vec3, three};
 
 /// The hits of a packet whose distance waits. The query of the packet holds a bound from above in its place.
 #[derive(Clone, Copy)]
@@ -27,8 +27,8 @@ impl<T: Tier> Default for Pending<T> {
 }
 
 impl<T: Tier> Pending<T> {
-    /// Puts lanes that may hit primitive `i` of a block to the query, in full only where bounds say too little; true if
-    /// any was accepted.
+    /// Puts lanes that may hit primitive `i` of a block to the query, in full only where what was seen of it says too
+    /// little; true if any was accepted.
     #[inline(always)]
     pub(super) fn ask<B: Testable, Q: Query<T::Wide>>(
         &mut self,
@@ -37,20 +37,20 @@ impl<T: Tier> Pending<T> {
         rays: &TestRays<T>,
         query: &mut Q,
     ) -> bool {
-        let Some((seen, corners)) = block.glimpse::<T, RaysByPrimitive>(i, rays) else {
+        let Some(seen) = block.glimpse::<T, RaysByPrimitive>(i, rays) else {
             self.settle(rays, query);
             let needed = block.needed::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
             return needed.any() && block.ask::<T, RaysByPrimitive, Q>(i, needed, rays, query);
         };
-        let (certain, unclear) = self.sort(lanes, &seen, rays.ray.t_min, query.limit());
+        let (certain, unclear) = self.sort(lanes & seen.inside, &seen, rays.ray.t_min, query.limit());
         let mut accepted = certain.any();
         if unclear.any() {
             self.settle(rays, query);
             accepted |= block.ask::<T, RaysByPrimitive, Q>(i, unclear, rays, query);
         }
         query.take(certain, seen.far, BitLane::splat(block.ids()[i]));
-        if !Q::ANY {
-            self.put(certain, seen.near, &corners);
+        if let Some(corners) = block.corners_of_triangles().filter(|_| !Q::ANY) {
+            self.put(certain, seen.near, three(|v| RaysByPrimitive::vec3(&corners[v], i)));
         }
         accepted
     }
@@ -66,18 +66,18 @@ impl<T: Tier> Pending<T> {
         limit: T::Wide,
     ) -> (Lanes<T>, Lanes<T>) {
         let nearest = Lane::select(self.lanes, self.near, limit);
-        let out = seen.hits & (seen.near.gt(limit) | seen.far.le(t_min));
-        let certain = lanes & seen.hits & seen.far.lt(nearest) & seen.near.gt(t_min) & !out;
+        let out = seen.near.gt(limit) | seen.far.le(t_min);
+        let certain = lanes & seen.far.lt(nearest) & seen.near.gt(t_min) & !out;
         (certain, lanes & !(certain | out))
     }
 
     /// Takes hits in place of what their lanes held.
     #[inline(always)]
-    fn put(&mut self, lanes: Lanes<T>, near: T::Wide, corners: &[Vec3<T::Wide>; 3]) {
+    fn put(&mut self, lanes: Lanes<T>, near: T::Wide, corners: [Vec3<T::Wide>; 3]) {
         self.lanes = self.lanes | lanes;
         self.near = Lane::select(lanes, near, self.near);
         for (kept, corner) in self.corners.iter_mut().zip(corners) {
-            *kept = Vec3::select(lanes, *corner, *kept);
+            *kept = Vec3::select(lanes, corner, *kept);
         }
     }
 

@@ -22,6 +22,8 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
         vertices: [Vec3<L>; 3],
         limit: L,
     ) -> LaneHit<L>;
+    /// True if [`TriangleTest::glimpse`] tells anything.
+    const GLIMPSES: bool = false;
     /// What is certain of a meeting without [`TriangleTest::hit`], where there is a cheap way to tell.
     #[inline(always)]
     fn glimpse<L: Lane>(

@@ -1,26 +1,25 @@
 //! Up to 64 rays down the tree together: their pyramid against eight children a test.
 //!
 //! Plainly: each packet of eight rays is tested against every primitive that the pyramid of all rays meets. Departures:
-//! - in a leaf the pyramid is tested against eight primitives at once, then the box of a primitive against the pyramids of
-//!   eight packets at once; only the pairs that are left run the primitive test, first all its cheap half, then what may hit:
-//!   loops that overlap from pair to pair and have little to guess;
+//! - leaves: see [`leaf`];
 //! - a bundle that meets many primitives is given up: its rays are too far apart for the size of the primitives, and the
 //!   packets go on from what they have found.
 
+mod leaf;
+
 use super::candidates::{Candidate, Candidates, room_for};
-use super::frustum::{Apex, Frustum, Sight};
+use super::frustum::{Apex, Frustum};
 use crate::accel::Accel;
 use crate::accel::block::RaysByPrimitive;
 use crate::accel::descend::descend;
 use crate::accel::instance::TreeRoot;
-use crate::accel::leaf::{BlockVisitor, ForTriangles, PreparedRays, TestRays, Testable, with_block};
+use crate::accel::leaf::{ForTriangles, PreparedRays, TestRays, with_block};
 use crate::accel::node::ChildRef;
 use crate::accel::pending::Pending;
 use crate::accel::query::Query;
 use crate::accel::{packet, single, unchecked};
 use crate::intersect::{RayLanes, Tier, TriangleTest};
-use crate::math::{Mask, WIDTH, three};
-use wide::f32x8;
+use crate::math::{Lane, Mask, WIDTH};
 
 /// Primitives met by the pyramid up to which a bundle pays: six a ray.
 const PAYS: usize = 6 * WIDTH * WIDTH;
@@ -36,6 +35,8 @@ pub(super) struct Workplace<T: Tier> {
     /// Packets prepared for triangles when first tested, as many meet none; which of them are, as bits.
     prepared: [ForTriangles<T>; WIDTH],
     is_prepared: u32,
+    /// Lanes of packets that still ask whether they hit anything, as bits.
+    asks: [u32; WIDTH],
     /// Pairs of a primitive of a block and a packet.
     pairs: Candidates<{ room_for(WIDTH) }>,
     /// Those that may hit, with the lanes that may.
@@ -50,6 +51,7 @@ impl<T: Tier> Default for Workplace<T> {
         Self {
             prepared: [T::Triangle::prepare(&super::no_rays()); WIDTH],
             is_prepared: 0,
+            asks: [0; WIDTH],
             pairs: Candidates::default(),
             likely: [(Candidate::default(), 0); room_for(WIDTH)],
             pending: [Pending::default(); WIDTH],
@@ -84,12 +86,11 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         queries: &'a mut [Q],
     ) -> Option<Self> {
         frustum.surround::<T>(rays, apex, tree)?;
-        for (j, query) in queries.iter().enumerate() {
-            frustum.look(j, T::above_f32(query.limit()));
-        }
-        frustum.update_reach();
         work.is_prepared = 0;
-        Some(Self { frustum, rays, work, queries, met: 0 })
+        let mut bundle = Self { frustum, rays, work, queries, met: 0 };
+        (0..rays.len()).for_each(|j| bundle.look(j));
+        bundle.frustum.update_reach();
+        Some(bundle)
     }
 
     /// True if its rays had better go together, and its neighbours' rays too.
@@ -165,83 +166,16 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             done
         });
         self.work.inner = Some(work);
-        for (j, query) in self.queries.iter_mut().enumerate() {
+        for (j, ray) in local[..count].iter().enumerate() {
+            let query = &mut self.queries[j];
             if !done {
-                let rays = PreparedRays::new(local[j], placed.tree);
+                let rays = PreparedRays::new(*ray, placed.tree);
                 let _ = descend::<T, RaysByPrimitive, Q>(accel, root, &rays, query, stacks.packet);
             }
             query.enter_instance(0);
-            self.frustum.look(j, T::above_f32(query.limit()));
+            self.look(j);
         }
         self.frustum.update_reach();
-    }
-
-    /// Tests the primitives of a block that the pyramid meets, each against the packets that may meet it.
-    #[inline(always)]
-    fn visit_primitives<B: Testable>(&mut self, block: &B, sight: &Sight, met: u32) -> bool {
-        let mut left = met;
-        self.met += left.count_ones() as usize;
-        self.work.pairs.clear();
-        let (all, mut wanted) = ((1 << self.rays.len()) - 1, 0);
-        while left != 0 {
-            let i = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
-            let packets = self.frustum.packets(sight, i) & all;
-            self.work.pairs.push(i, packets);
-            wanted |= packets;
-        }
-        if block.corners_of_triangles().is_some() {
-            self.prepare(wanted);
-        }
-        let likely = self.find_likely(block);
-        let accepted = self.ask_likely(block, likely);
-        if accepted != 0 {
-            self.look_again(accepted);
-        }
-        accepted != 0
-    }
-
-    /// Prepares packets for triangles.
-    #[inline(always)]
-    fn prepare(&mut self, packets: u32) {
-        let mut left = packets & !self.work.is_prepared;
-        self.work.is_prepared |= packets;
-        while left != 0 {
-            let j = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
-            self.work.prepared[j] = T::Triangle::prepare(&self.rays[j]);
-        }
-    }
-
-    /// Sorts out the pairs that may hit; gives how many.
-    #[inline(always)]
-    fn find_likely<B: Testable>(&mut self, block: &B) -> usize {
-        let work = &mut *self.work;
-        let mut count = 0;
-        for k in 0..work.pairs.len() {
-            let pair = work.pairs.get(k);
-            let j = pair.lane();
-            let rays = TestRays { ray: &self.rays[j], triangle: &work.prepared[j] };
-            let lanes = block.may_hit::<T, RaysByPrimitive>(pair.row(), &rays).bits();
-            work.likely[count] = (pair, lanes);
-            count += usize::from(lanes != 0);
-        }
-        count
-    }
-
-    /// Puts so many of the likely pairs to the queries; gives the packets that accepted a hit.
-    #[inline(always)]
-    fn ask_likely<B: Testable>(&mut self, block: &B, count: usize) -> u32 {
-        let mut accepted = 0;
-        for k in 0..count {
-            let (pair, lanes) = self.work.likely[k];
-            let (i, j) = (pair.row(), pair.lane());
-            let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
-            let query = &mut self.queries[j];
-            let accepts = self.work.pending[j].ask((block, i), Mask::from_bits(lanes), &rays, query);
-            accepted |= u32::from(accepts) << j;
-        }
-        accepted
     }
 
     /// Finds all distances that wait.
@@ -255,35 +189,13 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         }
     }
 
-    /// Draws in what packets that found something look for.
+    /// Draws in what packet `j` looks for; [`Frustum::update_reach`] must follow.
     #[inline(always)]
-    fn look_again(&mut self, packets: u32) {
-        let mut left = packets;
-        while left != 0 {
-            let j = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
-            self.frustum.look(j, T::above_f32(self.queries[j].limit()));
+    fn look(&mut self, j: usize) {
+        let limit = self.queries[j].limit();
+        self.frustum.look(j, T::above_f32(limit));
+        if Q::ANY {
+            self.work.asks[j] = limit.gt(T::Wide::zero()).bits();
         }
-        self.frustum.update_reach();
-    }
-}
-
-impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
-    #[inline(always)]
-    fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let (frustum, there) = (&*self.frustum, (1 << block.count()) - 1);
-        let Some(corners) = block.corners_of_triangles() else {
-            let extent = three(|k| block.extent(k));
-            let sight = frustum.sight(&frustum.view().boxes(|k| extent[k][0], |k| extent[k][1]));
-            return self.visit_primitives(block, &sight, frustum.sees(&sight) & there);
-        };
-        let corners = three(|v| frustum.view().point(|k| f32x8::new(corners[v][k])));
-        let [a, b, c] = corners;
-        let sight = frustum.sight(&[a.min(b).min(c), a.max(b).max(c)]);
-        let mut met = frustum.sees(&sight) & there;
-        if met & frustum.wide(&sight) != 0 {
-            met &= frustum.triangles(corners);
-        }
-        self.visit_primitives(block, &sight, met)
     }
 }

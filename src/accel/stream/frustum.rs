@@ -27,7 +27,8 @@ use crate::accel::node::Node8;
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, Vec3, WIDTH};
 pub use apex::Apex;
-use edges::Edges;
+pub(super) use edges::Edges;
+use edges::Middle;
 pub(super) use focus::focus;
 use slopes::{Slopes, greatest};
 use view::{Boxes, View};
@@ -49,11 +50,11 @@ pub(super) struct Frustum {
     pub(super) octant: usize,
     all: Slopes,
     packets: Slopes,
-    /// Slopes of the middle, and those above relative to it.
-    middle: [f32x8; 2],
+    /// In the middle of all, and the slopes above relative to it.
+    middle: Middle,
     about_middle: Slopes,
-    /// Largest slope about the middle.
-    spread: f32x8,
+    /// Slopes of rays about the middle, by packet.
+    rays: [[f32x8; 2]; WIDTH],
     /// Where rays start along `z`, by packet; with an apex to come, 0.
     start: [f32x8; WIDTH],
     /// Length of the directions along `z`, by packet.
@@ -65,7 +66,6 @@ pub(super) struct Frustum {
     /// How far along `z` any packet still looks.
     pub(super) reach: f32,
     side_pad: f32x8,
-    edge_pad: f32x8,
 }
 
 /// Around nothing.
@@ -78,16 +78,15 @@ impl Default for Frustum {
             octant: 0,
             all: none,
             packets: none,
-            middle: [f32x8::ZERO; 2],
+            middle: Middle::default(),
             about_middle: none,
-            spread: f32x8::ZERO,
+            rays: [[f32x8::ZERO; 2]; WIDTH],
             start: [f32x8::ZERO; WIDTH],
             along: [f32x8::ONE; WIDTH],
             first: f32x8::ZERO,
             packet_reach: [f32::NEG_INFINITY; WIDTH],
             reach: f32::NEG_INFINITY,
             side_pad: f32x8::ZERO,
-            edge_pad: f32x8::ZERO,
         }
     }
 }
@@ -180,16 +179,29 @@ impl Frustum {
         (outside.le(pad) & lo.z.le(reach)).bits()
     }
 
-    /// Of eight triangles, given by their corners, those that rays may meet: told by their edges, not by their boxes.
+    /// Edges of eight triangles, given by their corners.
     #[inline(always)]
-    pub(super) fn triangles(&self, corners: [Vec3<f32x8>; 3]) -> u32 {
-        // Parallel rays see all at one distance, so edges do not tell how far along them it is.
-        let (corners, reach) = match self.view.lean {
-            Some(_) => (corners.map(|corner| Vec3 { z: f32x8::ONE, ..corner }), f32::INFINITY),
-            None => (corners, self.reach),
+    pub(super) fn edges(&self, corners: [Vec3<f32x8>; 3]) -> Edges {
+        // Parallel rays see all at one distance.
+        let corners = match self.view.lean {
+            Some(_) => corners.map(|corner| Vec3 { z: f32x8::ONE, ..corner }),
+            None => corners,
         };
-        let edges = Edges::of(corners, self.middle, self.spread, self.edge_pad);
+        Edges::of(corners, &self.middle)
+    }
+
+    /// Of eight triangles, those that rays may meet: told by their edges, not by their boxes.
+    #[inline(always)]
+    pub(super) fn triangles(&self, edges: &Edges) -> u32 {
+        // There edges do not tell how far along the rays it is.
+        let reach = if self.view.lean.is_some() { f32::INFINITY } else { self.reach };
         edges.met(&self.about_middle, f32x8::splat(reach))
+    }
+
+    /// Slopes of the rays of packet `j`, about the middle.
+    #[inline(always)]
+    pub(super) fn slopes_of(&self, j: usize) -> &[f32x8; 2] {
+        &self.rays[j]
     }
 
     /// How rays see things.

@@ -27,11 +27,11 @@ const LEAST_EDGE: f64 = 1e-18;
 /// Rays that certainly hit their triangles, and where.
 #[derive(Clone, Copy, Debug)]
 pub struct Glimpse<L: Lane> {
-    /// Lanes of which that is known.
-    pub hits: L::Mask,
-    /// No `t` of a hit is below.
+    /// Lanes that pass the edges.
+    pub inside: L::Mask,
+    /// No `t` of a hit is below; minus infinity where not even a hit is certain.
     pub near: L,
-    /// No `t` of a hit is above.
+    /// No `t` of a hit is above; infinity there.
     pub far: L,
 }
 
@@ -46,6 +46,7 @@ impl<L: Lane> Glimpse<L> {
         let tiny = L::constant(f64::from(f32::MIN_POSITIVE));
         let unit = reach * L::constant(EDGE_ROUNDOFFS * f32::ROUNDOFF);
         let edge_error = unit * (across + unit) + L::constant(LEAST_EDGE);
+        let inside = super::woop::same_side(e);
         let (least, greatest) = (e[0].min(e[1]).min(e[2]), e[0].max(e[1]).max(e[2]));
         let share = L::one() / ((e[0] + e[1]) + e[2]);
         let z = ((e[0] * az + e[1] * bz) + e[2] * cz) * share;
@@ -55,7 +56,9 @@ impl<L: Lane> Glimpse<L> {
         let (t, apart) = (z * per_z, apart * per_z.abs() + tiny);
         let (near, far) = (t - apart, t + apart);
         let in_range = share.abs().ge(tiny) & (far - near).is_finite();
-        Self { hits: (least.gt(edge_error) | greatest.lt(-edge_error)) & in_range, near, far }
+        let hits = (least.gt(edge_error) | greatest.lt(-edge_error)) & in_range;
+        let unknown = L::constant(f64::INFINITY);
+        Self { inside, near: L::select(hits, near, -unknown), far: L::select(hits, far, unknown) }
     }
 }
 

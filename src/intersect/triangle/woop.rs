@@ -119,6 +119,8 @@ impl TriangleTest for Woop {
         within_own_box(lanes, ray, &shear.own, v, limit)
     }
 
+    const GLIMPSES: bool = true;
+
     #[inline(always)]
     fn glimpse<L: Lane>(ray: &RayLanes<L>, shear: &Shear<L>, v: [Vec3<L>; 3]) -> Option<Glimpse<L>> {
         let [a, b, c] = three(|k| v[k] - ray.origin);
@@ -221,6 +223,12 @@ fn inside_edges<L: Lane>([(ax, ay), (bx, by), (cx, cy)]: [(L, L); 3]) -> L::Mask
     let e0 = cx * by - cy * bx;
     let e1 = ax * cy - ay * cx;
     let e2 = bx * ay - by * ax;
+    same_side([e0, e1, e2])
+}
+
+/// Lanes in which edge functions have one sign, or are zero, but not all.
+#[inline(always)]
+pub(super) fn same_side<L: Lane>([e0, e1, e2]: [L; 3]) -> L::Mask {
     let zero = L::zero();
     let same_side = e0.min(e1).min(e2).ge(zero) | e0.max(e1).max(e2).le(zero);
     let det = (e0 + e1) + e2;

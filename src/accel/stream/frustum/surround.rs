@@ -95,6 +95,8 @@ impl Frustum {
         let size = self.view.eye.iter().fold(scale, |size, x| size.max(x.abs()));
         self.first = f32x8::splat(least(first));
         self.set_slopes(Slopes { a: range(a), b: range(b) });
+        let [x, y] = self.middle.slopes;
+        self.rays = std::array::from_fn(|j| [a[j] - x, b[j] - y]);
         Some((greatest(astray), size))
     }
 
@@ -105,9 +107,9 @@ impl Frustum {
         let all = Slopes { a: whole(packets.a), b: whole(packets.b) };
         let half = f32x8::splat(0.5);
         let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
-        (self.all, self.packets, self.middle) = (all, packets, middle);
+        (self.all, self.packets, self.middle.slopes) = (all, packets, middle);
         self.about_middle = all.about(middle);
-        self.spread = self.about_middle.greatest();
+        self.middle.spread = self.about_middle.greatest();
         let [x, y, z] = self.view.axes;
         let slopes = self.view.lean.unwrap_or(middle.map(|slope| slope.get(0)));
         let [against_x, against_y] = slopes.map(|slope| usize::from(slope < 0.0));
@@ -122,7 +124,9 @@ impl Frustum {
             f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32 + more)
         };
         self.side_pad = pad(SIDE_ROUNDOFFS, astray);
-        self.edge_pad = pad(EDGE_ROUNDOFFS, EDGE_STRAYS * astray);
-        self.edge_pad.get(0).is_finite().then_some(())
+        self.middle.edge_pad = pad(EDGE_ROUNDOFFS, EDGE_STRAYS * astray);
+        self.middle.stray =
+            if self.view.lean.is_some() { f32x8::splat(f32::INFINITY) } else { self.side_pad };
+        self.middle.edge_pad.get(0).is_finite().then_some(())
     }
 }
