@@ -27,6 +27,9 @@ const EDGE_ROUNDOFFS: f64 = 128.0;
 /// Roundings on the way from where rays start back to the apex are within the slack above.
 const EDGE_STRAYS: f32 = 20.0;
 
+/// Coordinates up to which no volume overflows: six times one is at most 1,300 times the cube of the largest.
+const LARGEST: f32 = 1e11;
+
 /// How far rays may pass by an apex behind them, as a part of how wide they are where they start: more would be no beam.
 const STRAY: f32 = 0.03;
 
@@ -116,8 +119,8 @@ impl Frustum {
         self.octant = against_x << x | against_y << y | usize::from(self.view.backward) << z;
     }
 
-    /// Takes the size of coordinates, and by how much more than roundoffs rays pass by the apex; `None` where a bound
-    /// overflows.
+    /// Takes the size of coordinates, and by how much more than roundoffs rays pass by the apex; `None` where
+    /// volumes might overflow.
     #[inline(always)]
     fn set_pads(&mut self, size: f32, astray: f32) -> Option<()> {
         let pad = |roundoffs: f64, more: f32| {
@@ -127,6 +130,6 @@ impl Frustum {
         self.middle.edge_pad = pad(EDGE_ROUNDOFFS, EDGE_STRAYS * astray);
         self.middle.stray =
             if self.view.lean.is_some() { f32x8::splat(f32::INFINITY) } else { self.side_pad };
-        self.middle.edge_pad.get(0).is_finite().then_some(())
+        (size <= LARGEST).then_some(())
     }
 }

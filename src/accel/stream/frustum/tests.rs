@@ -1,8 +1,8 @@
 use super::{Apex, Frustum, focus};
 use crate::accel::instance::TreeRoot;
 use crate::intersect::testing::dice::Dice;
-use crate::intersect::{Ray, RayLanes, Watertight};
-use crate::math::{Aabb, Lane, Vec3, WIDTH, three};
+use crate::intersect::{Exact, Ray, RayLanes, Tier, TriangleTest, Watertight};
+use crate::math::{Aabb, Lane, Mask, Vec3, WIDTH, three};
 use wide::f32x8;
 
 /// Least and greatest coordinates.
@@ -68,8 +68,8 @@ fn packets(rays: &[Ray]) -> Vec<RayLanes<f32x8>> {
 }
 
 /// The frustum of a beam, by its apex or by the one that is found for it.
-fn around(rays: &[Ray], apex: Apex, finds: bool) -> Option<Frustum> {
-    let world = TreeRoot::new(0, &Aabb { min: [-4.0; 3], max: [4.0; 3] });
+fn around(rays: &[Ray], apex: Apex, finds: bool, scale: f32) -> Option<Frustum> {
+    let world = TreeRoot::new(0, &Aabb { min: [-4.0 * scale; 3], max: [4.0 * scale; 3] });
     let (packets, mut frustum) = (packets(rays), Frustum::default());
     let apex = if finds { Apex::Behind(focus::<Watertight>(&packets, world)?) } else { apex };
     frustum.surround::<Watertight>(&packets, apex, world)?;
@@ -93,7 +93,7 @@ fn what_a_ray_meets_is_not_culled_and_most_of_the_rest_is() {
     for seed in 0..3_000 {
         let dice = &mut Dice(seed);
         let (rays, apex) = beam(dice);
-        let Some(frustum) = around(&rays, apex, matches!(apex, Apex::Behind(_)) && seed % 2 == 0) else {
+        let Some(frustum) = around(&rays, apex, matches!(apex, Apex::Behind(_)) && seed % 2 == 0, 1.0) else {
             continue;
         };
         beams += 1;
@@ -115,6 +115,98 @@ fn what_a_ray_meets_is_not_culled_and_most_of_the_rest_is() {
     assert!(parallel > 500, "{parallel} parallel beams");
     assert!(beams > 1_000 && met > 10_000, "{beams} beams, {met} met");
     assert!(missed > 1_000 && kept < missed / 2, "{kept} of {missed} boxes are kept that no ray meets");
+}
+
+/// Three corners about a point on the way of a ray or about the apex, and whether they are as far apart as those of most
+/// triangles for which edges are asked.
+fn triangle(rays: &[Ray], apex: Apex, dice: &mut Dice) -> ([[f32; 3]; 3], bool) {
+    let ray = &rays[dice.below(rays.len())];
+    let on_ray = |t: f64| three(|k| f64::from(ray.origin[k]) + t * f64::from(ray.direction[k]));
+    let at = match (dice.below(4), apex) {
+        (0, Apex::Origin(p) | Apex::Target(p) | Apex::Behind(p)) => p.map(f64::from),
+        (1, _) => on_ray(dice.between(-0.01, 0.01)),
+        _ => on_ray(dice.between(-0.5, 2.0)),
+    };
+    let (size, shape) = ([1e-6, 1e-3, 0.05, 2.0][dice.below(4)], dice.below(3));
+    let a = offset(at, size, dice);
+    let b = offset(at, [size, 2.0][dice.below(2)], dice);
+    let c = match shape {
+        0 => three(|k| at[k] + dice.between(0.2, 2.0) * (at[k] - 0.5 * (a[k] + b[k]))),
+        1 => offset(a, 1e-5 * size, dice),
+        _ => offset(at, size, dice),
+    };
+    ([a, b, c].map(|p| p.map(|x| x as f32)), size >= 0.05 && shape == 2)
+}
+
+/// All of a beam that many times as large.
+fn scaled(rays: &mut [Ray], apex: Apex, by: f32) -> Apex {
+    for ray in rays {
+        ray.origin = ray.origin.map(|x| x * by);
+        ray.direction = ray.direction.map(|x| x * by);
+    }
+    let point = |p: [f32; 3]| p.map(|x| x * by);
+    match apex {
+        Apex::Origin(p) => Apex::Origin(point(p)),
+        Apex::Target(p) => Apex::Target(point(p)),
+        Apex::Behind(p) => Apex::Behind(point(p)),
+        Apex::Parallel => Apex::Parallel,
+    }
+}
+
+/// Whether the test of a tier has a ray hit a triangle before its end.
+fn hits<T: Tier>(ray: &Ray, corners: [[f32; 3]; 3]) -> bool {
+    let ray = RayLanes::<T::Real> {
+        origin: Vec3::splat_f32(ray.origin),
+        direction: Vec3::splat_f32(ray.direction),
+        t_min: T::Real::constant(f64::from(ray.t_min)),
+        t_max: T::Real::constant(f64::from(ray.t_max)),
+    };
+    let hit = T::Triangle::test(&ray, &T::Triangle::prepare(&ray), corners.map(Vec3::splat_f32), ray.t_max);
+    hit.mask.any() && hit.t.gt(ray.t_min).any() && hit.t.lt(ray.t_max).any()
+}
+
+#[test]
+fn edges_tell_of_no_hit_that_it_is_none_and_of_most_misses() {
+    let (mut met, mut beside, mut behind) = (0, [0; 2], [0; 2]);
+    for seed in 0..3_000 {
+        let dice = &mut Dice(seed);
+        let (mut rays, apex) = beam(dice);
+        let triangles: [_; WIDTH] = std::array::from_fn(|_| triangle(&rays, apex, dice));
+        let scale = [1.0, 1e-12, 1e9, 1e-18, 1e15][dice.below(5)];
+        let apex = scaled(&mut rays, apex, scale);
+        let Some(frustum) = around(&rays, apex, false, scale) else { continue };
+        let is_plain = triangles.map(|(_, is_plain)| is_plain);
+        let triangles = triangles.map(|(corners, _)| corners.map(|p| p.map(|x| x * scale)));
+        let corners = three(|v| frustum.view().point(|k| f32x8::from_fn(|i| triangles[i][v][k])));
+        let edges = frustum.edges(corners);
+        let all = frustum.triangles(&edges);
+        for (i, corners) in triangles.into_iter().enumerate() {
+            for (r, ray) in rays.iter().enumerate() {
+                let may_hit = edges.may_hit(i, frustum.slopes_of(r / WIDTH)) >> (r % WIDTH) & 1 != 0;
+                let told = (may_hit, all >> i & 1 != 0);
+                if hits::<Watertight>(ray, corners) || hits::<Exact>(ray, corners) {
+                    met += 1;
+                    assert_eq!(told, (true, true), "{ray:?} {corners:?} {apex:?}, seed {seed}");
+                }
+                if !is_plain[i] || scale < 1.0 {
+                    continue;
+                }
+                let backward = Ray { direction: ray.direction.map(|x| -x), t_max: f32::INFINITY, ..*ray };
+                let forward = Ray { t_max: f32::INFINITY, ..*ray };
+                let count = match (hits::<Exact>(&forward, corners), hits::<Exact>(&backward, corners)) {
+                    (false, false) => &mut beside,
+                    (false, true) if matches!(apex, Apex::Origin(_)) => &mut behind,
+                    _ => continue,
+                };
+                *count = [count[0] + 1, count[1] + usize::from(told == (true, true))];
+            }
+        }
+    }
+    println!("{met} hits; beside and behind, and of them not told: {beside:?} {behind:?}");
+    assert!(
+        met > 50_000 && beside[1] * 20 < beside[0] && behind[1] * 20 < behind[0],
+        "{beside:?} {behind:?}"
+    );
 }
 
 #[test]
