@@ -70,6 +70,17 @@ fn arrays_with_too_many_elements() {
 }
 
 #[test]
+fn values_of_a_wrong_type() {
+    let words = "a.toml:1:10: invalid type: integer `3`, expected a table";
+    expect(&[("a.toml", b"camera = 3")], 3, &[words]);
+    scene("[[sphere]]\ncenter = 3\nradius = 1", &["a.toml:5", "integer `3`, expected an array"]);
+    scene("[[sphere]]\ncenter = [0, 0, 0]\nradius = {}", &["a.toml:6", "table, expected a number"]);
+    scene("[render]\nmax_depth = -3", &["a.toml:5", "expected a whole number"]);
+    scene("[[material]]\nname = 1.5", &["a.toml:5", "float `1.5`, expected a string"]);
+    scene("[[mesh]]\npath = [1]", &["a.toml:5", "array, expected a string"]);
+}
+
+#[test]
 fn numbers_that_are_none() {
     scene("[[sphere]]\ncenter = [nan, 0, 0]\nradius = 1", &["a.toml:5", "center"]);
     scene("[[sphere]]\ncenter = [0, inf, 0]\nradius = 1", &["a.toml:5", "center"]);

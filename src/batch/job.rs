@@ -11,6 +11,7 @@ use toml::Value;
 pub use super::axis::{Sweep, SweepMode};
 pub use super::keyframes::{Interpolation, Keyframes};
 use super::{BatchError, key};
+use crate::describe::words::explain_in;
 use crate::describe::{BuildQuality, Tier};
 use crate::film::Aov;
 
@@ -128,12 +129,7 @@ impl Job {
     }
 
     fn parse(text: &str, name: &str) -> Result<Self, BatchError> {
-        let refused = |error: toml::de::Error| {
-            let at = error.span().map_or(0, |span| span.start.min(text.len()));
-            let line = text[..at].matches('\n').count() + 1;
-            BatchError::Job(format!("{name}:{line}: {}", error.to_string().trim_end()))
-        };
-        toml::from_str(text).map_err(refused)
+        toml::from_str(text).map_err(|error| BatchError::Job(explain_in(name, text, &error).to_string()))
     }
 
     /// The settings that apply to all pictures, as `key=value`.
@@ -196,8 +192,10 @@ mod tests {
     #[test]
     fn errors_name_file_line_and_what_was_expected() {
         for (text, words) in [
-            ("scene='seed'\nspp='many'\n", ["job.toml:2", "u32"]),
-            ("scene='seed'\nssp=3\n[[output]]\npath='a.exr'", ["job.toml:2", "spp"]),
+            ("scene='seed'\nspp='many'\n", ["job.toml:2:5", "a whole number"]),
+            ("scene=3\n", ["job.toml:1", "a string"]),
+            ("scene='seed'\n[set]\n[[output]]\npath='a.exr'\n[sweep]\nx=3", ["job.toml:6:3", "or table"]),
+            ("scene='seed'\nssp=3\n[[output]]\npath='a.exr'", ["job.toml:2", "did you mean `spp`"]),
             ("scene='seed'\n", ["job.toml:1", "output"]),
             ("scene='seed'\n[[output]]\npath='a.exr'\naovs=['normal']", ["job.toml:4", "shading_normal"]),
             ("scene=", ["job.toml:1", ""]),

@@ -44,6 +44,7 @@ mod render;
 mod scene;
 mod shape;
 mod transform;
+pub(crate) mod words;
 mod write;
 
 pub use amend::Amendable;

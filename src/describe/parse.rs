@@ -1,7 +1,7 @@
 //! Scene text to a checked description.
 
-use super::check::nearest;
 use super::locate::Sources;
+use super::words::explain;
 use super::{DescribeError, Diagnostic, SceneDescription, overrides};
 use serde::Deserialize;
 use std::path::Path;
@@ -75,38 +75,6 @@ fn locate_faults(sources: &Sources<'_>, faults: Vec<super::Fault>) -> DescribeEr
             DescribeError::Invalid(faults.into_iter().map(|f| sources.diagnose_fault(&table, f)).collect())
         }
         Err(diagnostic) => one(diagnostic),
-    }
-}
-
-/// An error of the TOML or type layer in the words of a scene file, with the nearest valid name.
-fn explain(sources: &Sources<'_>, error: &toml::de::Error) -> Diagnostic {
-    let (message, help) = reword(error.message());
-    sources.diagnose(error.span().map_or(0, |span| span.start), message, help)
-}
-
-/// Serde's words for unknown and missing names, which carry the valid ones in backticks.
-fn reword(message: &str) -> (String, Option<String>) {
-    let names: Vec<&str> = message.split('`').skip(1).step_by(2).collect();
-    let reworded = |what: &str| match names.split_first() {
-        Some((found, valid)) => (format!("{what} `{found}`"), Some(suggest(found, valid))),
-        None => (message.to_owned(), None),
-    };
-    if message.starts_with("unknown field") {
-        reworded("unknown key")
-    } else if message.starts_with("unknown variant") {
-        reworded("unknown value")
-    } else if let Some(rest) = message.strip_prefix("missing field") {
-        (format!("missing key{rest}"), None)
-    } else {
-        (message.trim_end().to_owned(), None)
-    }
-}
-
-fn suggest(found: &str, valid: &[&str]) -> String {
-    let all = valid.join(", ");
-    match nearest(found, valid.iter().copied()) {
-        Some(near) => format!("did you mean `{near}`? valid here: {all}"),
-        None => format!("valid here: {all}"),
     }
 }
 

@@ -6,7 +6,7 @@ use super::{SMALL, done, fails, folder, pictures};
 fn bad_jobs_name_the_file_the_line_and_what_was_expected() {
     let output = "[[output]]\npath = \"a.png\"\n";
     for (job, words) in [
-        ("scene = \"seed\"\nspp = \"many\"\n", &["turn.toml:2", "u32"][..]),
+        ("scene = \"seed\"\nspp = \"many\"\n", &["turn.toml:2", "a whole number"][..]),
         ("scene = \"seed\"\nssp = 3\n", &["turn.toml:2", "ssp", "spp"]),
         ("scene = \"sed\"\n", &["`sed`"]),
         ("scene = \"none.toml\"\n", &["none.toml"]),
@@ -221,7 +221,12 @@ fn keys_that_count_are_keyframed_and_swept_in_whole_numbers() {
         let found: Vec<_> = pictures[..3].iter().map(|picture| picture[field].clone()).collect();
         assert_eq!(serde_json::to_string(&found).unwrap(), expected, "{key}");
     }
-    fails(folder(&job("render.spp", "[1, 2]")).path(), "plan turn.toml", 3, &["frame 2", "1.5", "u32"]);
+    fails(
+        folder(&job("render.spp", "[1, 2]")).path(),
+        "plan turn.toml",
+        3,
+        &["frame 2", "1.5", "a whole number"],
+    );
 }
 
 #[test]

@@ -37,7 +37,8 @@ pub(super) fn grow_onto(nodes: &mut Vec<BinaryNode>, items: &mut [Item], depth: 
 /// The nodes over a range, in pieces: tasks share the range until pieces are small.
 fn grow_shared(items: &mut [Item], first: u32, depth: u32, quality: Quality) -> Vec<Vec<BinaryNode>> {
     if items.len() <= GRAIN {
-        let mut nodes = Vec::new();
+        // Most leaves hold several; what is not needed stays untouched.
+        let mut nodes = Vec::with_capacity(items.len());
         grow_alone(items, first, depth, quality, &mut nodes);
         return vec![nodes];
     }

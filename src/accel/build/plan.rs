@@ -68,6 +68,21 @@ impl Plan {
         }
         plan
     }
+
+    /// Roots that each half contributes where the subtree may have so many; `None` if it has one.
+    pub(super) fn shares(&self, mut roots: usize) -> Option<[usize; 2]> {
+        while roots > 1 && self.left[roots - 1] == 0 {
+            roots -= 1;
+        }
+        let left = usize::from(self.left[roots - 1]);
+        (roots > 1).then_some([left, roots - left])
+    }
+
+    /// Children that each half contributes to the wide node over the subtree; `None` if it is a leaf.
+    pub(super) fn children(&self) -> Option<[usize; 2]> {
+        let left = usize::from(self.left[0]);
+        (left != 0).then_some([left, WIDTH - left])
+    }
 }
 
 fn block_cost(area: f32, price: f32, kind: u8) -> f32 {
@@ -94,13 +109,12 @@ struct Solver<'a> {
     price: f32,
 }
 
-/// The plans of all binary nodes where a byte costs a ray as much as so many cycles.
-pub(super) fn plans(nodes: &[BinaryNode], items: &[Item], price: f32) -> Vec<Plan> {
-    let mut plans = vec![Plan::UNKNOWN; nodes.len()];
+/// Makes the plans of all binary nodes where a byte costs a ray as much as so many cycles.
+pub(super) fn solve(nodes: &[BinaryNode], items: &[Item], price: f32, plans: &mut Vec<Plan>) {
+    plans.resize(nodes.len(), Plan::UNKNOWN);
     if let Some(root) = nodes.first() {
-        Solver { nodes, items, whole: half_area(&root.bounds), price }.solve(&mut plans);
+        Solver { nodes, items, whole: half_area(&root.bounds), price }.solve(plans);
     }
-    plans
 }
 
 impl Solver<'_> {
@@ -142,7 +156,9 @@ impl Children {
     /// The children of the wide node over a binary subtree that is no leaf.
     pub(super) fn of(nodes: &[BinaryNode], plans: &[Plan], root: usize) -> Self {
         let mut children = Self::default();
-        children.gather_below(nodes, plans, root, WIDTH, plans[root].left[0]);
+        if let Some(shares) = plans[root].children() {
+            children.gather_below(nodes, plans, root, shares);
+        }
         children
     }
 
@@ -155,20 +171,16 @@ impl Children {
         &self.at[..self.count]
     }
 
-    fn gather(&mut self, nodes: &[BinaryNode], plans: &[Plan], at: usize, mut roots: usize) {
-        while roots > 1 && plans[at].left[roots - 1] == 0 {
-            roots -= 1;
-        }
-        if roots > 1 {
-            return self.gather_below(nodes, plans, at, roots, plans[at].left[roots - 1]);
+    fn gather(&mut self, nodes: &[BinaryNode], plans: &[Plan], at: usize, roots: usize) {
+        if let Some(shares) = plans[at].shares(roots) {
+            return self.gather_below(nodes, plans, at, shares);
         }
         self.at[self.count] = at;
         self.count += 1;
     }
 
-    fn gather_below(&mut self, nodes: &[BinaryNode], plans: &[Plan], at: usize, roots: usize, from_left: u8) {
-        let from_left = usize::from(from_left);
-        self.gather(nodes, plans, at + 1, from_left);
-        self.gather(nodes, plans, at + nodes[at].right as usize, roots - from_left);
+    fn gather_below(&mut self, nodes: &[BinaryNode], plans: &[Plan], at: usize, [left, right]: [usize; 2]) {
+        self.gather(nodes, plans, at + 1, left);
+        self.gather(nodes, plans, at + nodes[at].right as usize, right);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::bins::{Cut, best_cut, part, quick_cut};
 use super::item::{Extent, Item, longest_axis, partition};
-use super::{LEAF_SIZE, MAX_DEPTH, Quality, SOLITARY};
+use super::{BLOCK_BYTES, LEAF_SIZE, MAX_DEPTH, Quality, SOLITARY};
 
 /// What a split must save to part a range that fits one leaf, in blocks. Above the 0.08 that are a node's cycles over a
 /// block's, divided by the seven splits that a node holds: every leaf also takes a whole block of memory. 0.08 saves rays
@@ -26,7 +26,10 @@ pub(super) fn split(items: &mut [Item], extent: &Extent, depth: u32, quality: Qu
     if quality == Quality::Fast {
         return (!fits_leaf).then(|| part_by(items, extent, quick_cut(items, extent)));
     }
-    let cut = best_cut(items, extent);
+    // Most ranges fit a leaf. Of trees in which triangles part there across the longest axis alone rays visit no more nodes
+    // and, through hair, 2% more blocks; through spheres it would be 5 to 10% more blocks.
+    let quick = fits_leaf && BLOCK_BYTES[usize::from(items[0].kind())] > 0;
+    let cut = if quick { quick_cut(items, extent) } else { best_cut(items, extent) };
     if fits_leaf && cut.is_none_or(|cut| !pays(&cut, extent)) {
         return None;
     }

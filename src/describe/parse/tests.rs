@@ -104,6 +104,48 @@ fn no_array_drops_what_is_too_much() {
     }
 }
 
+/// Puts `wrong` in the place of the `n`-th value, tables and arrays counted; false if there are fewer.
+fn spoil(value: &mut toml::Value, n: &mut usize, wrong: &toml::Value) -> bool {
+    if *n == 0 {
+        *value = wrong.clone();
+        return true;
+    }
+    *n -= 1;
+    match value {
+        toml::Value::Table(table) => table.iter_mut().any(|(_, value)| spoil(value, n, wrong)),
+        toml::Value::Array(array) => array.iter_mut().any(|value| spoil(value, n, wrong)),
+        _ => false,
+    }
+}
+
+#[test]
+fn wrong_types_are_told_in_the_words_of_toml() {
+    let wrong: toml::Table = "all = [true, 3, -3, 1.5, 'x', [], [3], {}, { x = 3 }]".parse().unwrap();
+    let mut told = 0;
+    for wrong in wrong["all"].as_array().unwrap() {
+        let spoilt = |n: usize| {
+            let mut scene = toml::Value::Table(ARRAYS.parse().unwrap());
+            spoil(&mut scene, &mut n.clone(), wrong).then(|| toml::to_string(&scene).unwrap())
+        };
+        // From 1: what is in place of the whole file would be no file.
+        for scene in (1..).map_while(spoilt) {
+            let Err(DescribeError::Invalid(faults)) = parse(&scene, "s.toml") else { continue };
+            for message in faults.iter().map(|fault| &fault.message) {
+                let foreign =
+                    ["struct", "enum", "variant", "f64", "u32", "u64", "sequence", "map", "wanted", "field"];
+                assert!(!foreign.iter().any(|word| message.contains(word)), "{message} in {scene}");
+            }
+            told += 1;
+        }
+    }
+    assert!(told > 1000, "{told}");
+    assert!(parse("camera = 3", "s.toml").unwrap_err().to_string().contains("integer `3`, expected a table"));
+    let array = parse("camera = []", "s.toml").unwrap_err().to_string();
+    assert!(array.contains("invalid type: array, expected a table"), "{array}");
+    let tricky = message("fov_deg = 'a, expected struct Camera'\n");
+    assert!(tricky.contains("string \"a, expected struct Camera\", expected a number"), "{tricky}");
+}
+
 #[test]
 fn empty_and_cut_off_files() {
     assert!(parse("", "s.toml").unwrap_err().to_string().starts_with("s.toml:1:1: missing key `camera`"));
