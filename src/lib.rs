@@ -99,9 +99,9 @@
 //!
 //! - [`TierName::Watertight`], the default: `f32` rays, closed meshes do not leak, distances decided in `f64`, the same
 //!   bits for any number of threads, packet width, tree and machine.
-//! - [`TierName::Fast`]: `f32` throughout, with fused operations; a ray may slip through a shared edge, and the last bits
-//!   may differ between builds. For previews.
-//! - [`TierName::Exact`]: `f64` rays and tests on the same `f32` scene; which triangles are met is decided without rounding.
+//! - [`TierName::Fast`]: `f32` with fused operations, and `f64` for triangles that it cannot tell; a ray may slip through a shared
+//!   edge, and the last bits may differ between builds. For previews.
+//! - [`TierName::Exact`]: `f64` rays and tests on the same `f32` scene; what is met is decided without rounding.
 //!   For references and for scenes whose parts differ in size by many orders of magnitude.
 //!
 //! [`measure::verify`] holds them to this, and other intersectors too.
@@ -129,3 +129,8 @@ pub mod wavefront;
 
 pub use accel::{Hint, Primitive, RayScene, RaySceneBuilder, RaySceneError};
 pub use intersect::{Hit, PrimId, Ray, TierName};
+
+/// The README's example compiles and holds.
+#[cfg(doctest)]
+#[doc = include_str!("../README.md")]
+struct Readme;

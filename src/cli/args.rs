@@ -19,7 +19,7 @@ pub(super) use render::parse_size;
 const EXIT_CODES: &str = "\
 Exit codes:
   0  done
-  1  failed while running (files, memory, interrupted)
+  1  failed while running (files, a picture of a batch, octray render interrupted)
   2  wrong use
   3  bad scene or asset, damaged or changed files, incomplete work (octray merge)
   4  beyond a limit: slower than the baseline (octray bench), a documented bound broken (octray verify),

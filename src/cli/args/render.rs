@@ -40,7 +40,7 @@ pub struct RenderArgs {
     /// How exactly rays are intersected
     #[arg(long)]
     pub tier: Option<Tier>,
-    /// How much work goes into building the tree; the picture stays the same
+    /// How much work goes into building the tree; the picture stays the same, but in tier fast
     #[arg(long, value_name = "HOW")]
     pub build_quality: Option<BuildQuality>,
     /// Values beside colour for an EXR picture, such as depth,object_id; a file with the camera's numbers is written beside it

@@ -22,7 +22,11 @@ pub struct BuiltinScene {
 }
 
 const SCENES: [BuiltinScene; 6] = [
-    scene("seed", "seed", "the picture of the course report: five spheres, two cylinders, two lights"),
+    scene(
+        "seed",
+        "seed",
+        "five spheres and two cylinders before a wall, two lights: what is rendered without a scene",
+    ),
     scene("cornell", "cornell", "a box with red and green walls, a glass and a metal sphere, two lights"),
     scene("spheres", "spheres", "10,000 spheres and 1,000 cylinders in a sunflower spiral"),
     scene(

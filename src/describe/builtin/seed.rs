@@ -1,10 +1,10 @@
-//! `seed`: the picture of the course report, in spirit: the numbers every renderer is compared with.
+//! `seed`: the first picture, and the numbers that all others are compared with.
 
 use super::super::{Background, Camera, Handedness, Material, MaterialKind, Rgb, SceneDescription};
 use super::parts::{point_lights, sphere, triangle, upright};
 
 pub(super) fn scene() -> SceneDescription {
-    // The report gives a window, 2 x 2.667 half, on the plane z = 0, five units from the camera.
+    // From a window, 2 x 2.667 half, on the plane z = 0, five units from the camera.
     let fov_deg = (2.0 * libm::atan(2.0 / 5.0)).to_degrees();
     let camera = Camera::perspective([0.0, 0.0, -5.0], [0.0; 3], fov_deg);
     let mut scene = SceneDescription::new(Camera { handedness: Handedness::Left, ..camera });
