@@ -151,6 +151,48 @@ fn groups_in_a_circle() {
     );
 }
 
+/// Groups of which each shows the next so many times; the last one holds what is given.
+fn levels(count: usize, times: usize, last: &str) -> String {
+    let shows = |i: usize| format!("[[group.instance]]\nof = 'g{}'\n", i + 1).repeat(times);
+    let groups: String = (1..count).map(|i| format!("[[group]]\nname = 'g{i}'\n{}", shows(i))).collect();
+    format!("[[instance]]\nof = 'g1'\n{groups}[[group]]\nname = 'g{count}'\n{last}")
+}
+
+const SPHERE_IN_GROUP: &str = "[[group.sphere]]\ncenter = [0, 0, 0]\nradius = 1\n";
+
+#[test]
+fn groups_too_deep_or_too_many() {
+    scene(&levels(2_000, 1, SPHERE_IN_GROUP), &["a.toml", "more than 256 deep"]);
+    scene(&levels(40, 2, SPHERE_IN_GROUP), &["more than 4194304 instances"]);
+    let folder = TempDir::new().unwrap();
+    for (count, times, last) in [(256, 1, SPHERE_IN_GROUP), (40, 2, "")] {
+        let text = format!("{CAMERA}[render]\nsize = [16, 12]\n{}", levels(count, times, last));
+        std::fs::write(folder.path().join("a.toml"), text).unwrap();
+        let (code, text) = render_in(folder.path(), &["a.toml", "-o", "out.png"]);
+        assert_eq!(code, 0, "{count} levels: {text}");
+    }
+}
+
+/// A ray between two mirrors goes as deep as it may.
+#[test]
+fn bounces_as_many_as_may_be() {
+    let plane =
+        |z: i32| format!("[[plane]]\npoint = [0, 0, {}]\nnormal = [0, 0, {z}]\nmaterial = 'm'\n", 9 * -z);
+    let mirrors = format!(
+        "[render]\nsize = [16, 12]\nmin_throughput = 0\nmax_depth = 256\n[[material]]\nname = 'm'\nkind = 'metal'\n\
+         attenuation = 1\ntint = [1, 1, 1]\n{}{}",
+        plane(1),
+        plane(-1)
+    );
+    let folder = TempDir::new().unwrap();
+    std::fs::write(folder.path().join("a.toml"), format!("{CAMERA}{mirrors}")).unwrap();
+    let (code, text) = render_in(folder.path(), &["a.toml", "-o", "out.png"]);
+    assert_eq!(code, 0, "{text}");
+    scene(&mirrors.replace("256", "257"), &["a.toml:7", "max_depth", "257 bounces are more than 256"]);
+    let (code, text) = render_in(folder.path(), &["seed", "--max-depth", "4294967295"]);
+    assert!(code == 2 && text.contains("max_depth"), "{code}: {text}");
+}
+
 #[test]
 fn cameras_and_sizes_that_show_nothing() {
     let head = "[camera]\nposition = [0, 0, 5]\nlook_at = [0, 0, 0]\n";

@@ -12,6 +12,8 @@ use crate::math::Real;
 
 /// Bytes that a full queue with all its columns hardly exceeds; those that stay untouched cost nothing.
 const ARENA: usize = 1 << 20;
+/// Depths that paths often reach; arenas beyond grow as they are needed.
+const USUAL: usize = 16;
 
 /// One thread's scratch.
 pub(super) struct WaveRunner<'a, T: Tier> {
@@ -34,7 +36,8 @@ impl<'a, T: Tier> WaveRunner<'a, T> {
         let depths =
             if scene.requirements.children() == 0 { 1 } else { scene.settings.max_depth as usize + 1 };
         while arenas.len() <= depths {
-            arenas.push(Bump::with_capacity(ARENA));
+            let deep = arenas.len() > USUAL;
+            arenas.push(if deep { Bump::new() } else { Bump::with_capacity(ARENA) });
         }
         Self {
             worker: Worker {

@@ -77,36 +77,65 @@ fn known(f: &mut Faults, names: &HashSet<&str>, key: &'static str, name: &str, w
     f.at(key, |f| f.add_with_help(format!("there is no {what} named `{name}`"), Some(help)));
 }
 
-/// Complains about groups that contain themselves through their instances.
+/// Groups within each other up to which a thread's stack suffices when they are compiled.
+const MOST_LEVELS: u32 = 256;
+
+/// Complains about groups that contain themselves through their instances, or others too deep.
 pub(super) fn check_circles(f: &mut Faults, scene: &SceneDescription) {
-    // 0: not yet visited, 1: on the way down from some group, 2: known to be free of circles.
-    let mut state = vec![0u8; scene.group.len()];
+    let mut found = vec![Found::Nothing; scene.group.len()];
     for start in 0..scene.group.len() {
-        visit(f, scene, &mut state, start);
+        visit(f, scene, &mut found, start);
     }
 }
 
+/// What is known of a group.
+#[derive(Clone, Copy, PartialEq)]
+enum Found {
+    Nothing,
+    /// It is on the way down from some group.
+    OnTheWay,
+    /// It is free of circles, and holds groups so deep, itself counted.
+    Levels(u32),
+}
+
 /// Walks down depth first with its own stack, so that a long chain of groups cannot overflow ours.
-fn visit(f: &mut Faults, scene: &SceneDescription, state: &mut [u8], start: usize) {
+fn visit(f: &mut Faults, scene: &SceneDescription, found: &mut [Found], start: usize) {
     let mut stack = vec![(start, 0)];
     while let Some((group, next)) = stack.pop() {
-        if next == 0 && state[group] == 2 {
+        if next == 0 && matches!(found[group], Found::Levels(_)) {
             continue;
         }
-        state[group] = 1;
+        found[group] = Found::OnTheWay;
         let Some(instance) = scene.group[group].instance.get(next) else {
-            state[group] = 2;
+            found[group] = Found::Levels(levels(f, scene, found, group));
             continue;
         };
         stack.push((group, next + 1));
         if let Some(Target::Group(inner, _)) = scene.target(&instance.of) {
-            match state[inner] {
-                0 => stack.push((inner, 0)),
-                1 => circle(f, group, next, &instance.of),
-                _ => {}
+            match found[inner] {
+                Found::Nothing => stack.push((inner, 0)),
+                Found::OnTheWay => circle(f, group, next, &instance.of),
+                Found::Levels(_) => {}
             }
         }
     }
+}
+
+/// How deep a group holds groups, itself counted; complains of the first that is too deep on its way up.
+fn levels(f: &mut Faults, scene: &SceneDescription, found: &[Found], group: usize) -> u32 {
+    let inner = scene.group[group].instance.iter().map(|instance| match scene.target(&instance.of) {
+        Some(Target::Group(inner, _)) => match found[inner] {
+            Found::Levels(levels) => levels,
+            Found::Nothing | Found::OnTheWay => 0,
+        },
+        _ => 0,
+    });
+    let levels = 1 + inner.max().unwrap_or(0);
+    if levels == MOST_LEVELS + 1 {
+        let message = format!("groups are nested more than {MOST_LEVELS} deep");
+        f.nth("group", group, |f| f.at("name", |f| f.add(message)));
+    }
+    levels
 }
 
 fn circle(f: &mut Faults, group: usize, instance: usize, of: &str) {

@@ -10,6 +10,9 @@ use super::objects::transform;
 /// More pixels than this are a slip of the finger.
 const MOST_PIXELS: u64 = 1 << 28;
 
+/// Bounces up to which a thread's stack suffices: each takes some kilobytes of it.
+const MOST_BOUNCES: u32 = 256;
+
 pub(super) fn check(f: &mut Faults, scene: &SceneDescription) {
     f.at("camera", |f| camera(f, &scene.camera));
     f.at("render", |f| render(f, &scene.render));
@@ -73,6 +76,8 @@ fn render(f: &mut Faults, r: &Render) {
     f.require("size", pixels > 0, &format!("a picture of {width} x {height} pixels has no pixel"));
     f.require("size", pixels <= MOST_PIXELS, &format!("{width} x {height} is more than 2^28 pixels"));
     f.require("spp", r.spp > 0, "must be at least 1 sample a pixel");
+    let bounces = format!("{} bounces are more than {MOST_BOUNCES}", r.max_depth);
+    f.require("max_depth", r.max_depth <= MOST_BOUNCES, &bounces);
     f.between("exposure", r.exposure, -64.0, 64.0);
     f.between("min_throughput", r.min_throughput, 0.0, 1.0);
     f.at("filter", |f| filter(f, &r.filter));

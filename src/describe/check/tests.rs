@@ -29,6 +29,7 @@ fn numbers_out_of_range() {
     expect("[[sphere]]\nradius = inf\ncenter = [0, 0, 0]\n", 5, "`radius`");
     expect("[[plane]]\npoint = [0, 0, 0]\nnormal = [0, 0, 0]\n", 6, "has no direction");
     expect("[render]\nspp = 0\n", 5, "at least 1 sample");
+    expect("[render]\nmax_depth = 257\n", 5, "more than 256");
     expect("[render]\nsize = [0, 480]\n", 5, "no pixel");
     expect("[render]\nsize = [1000000000, 1000000000]\n", 5, "more than 2^28 pixels");
     expect("[[material]]\nname = \"a\"\nior = 0\n", 6, "`ior` must be above 0");
@@ -77,6 +78,18 @@ fn groups_inside_themselves() {
     let diamond =
         format!("{CAMERA}{}", circle.replace("of = \"a\"", "of = \"d\"") + "[[group]]\nname = \"d\"\n");
     parse(&diamond, "s.toml").unwrap();
+}
+
+#[test]
+fn groups_as_deep_as_may_be() {
+    let group = |i: usize| format!("[[group]]\nname = \"g{i}\"\n[[group.instance]]\nof = \"g{}\"\n", i + 1);
+    let chain = |levels: usize| {
+        let groups: String = (1..levels).map(group).collect();
+        format!("{groups}[[group]]\nname = \"g{levels}\"\n")
+    };
+    parse(&format!("{CAMERA}{}", chain(256)), "s.toml").unwrap();
+    expect(&chain(257), 5, "groups are nested more than 256 deep");
+    expect(&chain(5_000), 5 + 4 * (5_000 - 257), "groups are nested more than 256 deep");
 }
 
 #[test]

@@ -243,22 +243,35 @@ impl<'a> World<'a> {
     /// Two levels: every instance, however deep, becomes one of the world, its transforms composed.
     fn flatten(mut self) -> Result<Geometry, CompileError> {
         let parts = std::mem::take(&mut self.parts);
+        let counts = shown(&parts);
+        if counts[0] > MAX_INSTANCES as u64 {
+            return Err(CompileError::TooMany { what: "instances", limit: MAX_INSTANCES });
+        }
         self.geometry.groups = parts.iter().map(|p| p.rows.clone()).collect();
         let mut waiting: Vec<Instance> = parts[0].shows.iter().rev().cloned().collect();
         while let Some(instance) = waiting.pop() {
-            for inner in parts[instance.group].shows.iter().rev() {
-                waiting.push(seen_through(&instance, inner));
+            let part = &parts[instance.group];
+            if counts[instance.group] > 0 {
+                waiting.extend(part.shows.iter().rev().map(|inner| seen_through(&instance, inner)));
             }
-            if !parts[instance.group].is_empty() {
+            if !part.is_empty() {
                 self.geometry.instances.push(instance);
-            }
-            // Groups of groups multiply: ten levels of ten are 10^10.
-            if self.geometry.instances.len() + waiting.len() > MAX_INSTANCES {
-                return Err(CompileError::TooMany { what: "instances", limit: MAX_INSTANCES });
             }
         }
         Ok(self.geometry)
     }
+}
+
+/// How many instances that are not empty each part shows, through others too: groups of groups multiply, ten levels of ten
+/// are 10^10. Parts show earlier ones alone, but for the world, the first.
+fn shown(parts: &[Part]) -> Vec<u64> {
+    let mut counts = vec![0u64; parts.len()];
+    for part in (1..parts.len()).chain([0]) {
+        let through =
+            |shown: &Instance| counts[shown.group].saturating_add(u64::from(!parts[shown.group].is_empty()));
+        counts[part] = parts[part].shows.iter().map(through).fold(0, u64::saturating_add);
+    }
+    counts
 }
 
 /// A part under a transform, seen as one object.
