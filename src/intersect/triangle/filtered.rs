@@ -5,6 +5,8 @@
 //!   small beside it;
 //! - what `f32` says of the others counts where no volume is small beside the largest, nor the determinant beside direction
 //!   and edges, as it is for thin triangles and those seen edge-on: elsewhere cancellation leaves too few digits;
+//! - numerator and determinant of `t` share the triangle's normal: what rounding turns it by moves `t` as if the ray met the
+//!   turned plane, by no more than the triangle is large, however far away it is;
 //! - in `f64` the third weight is a volume of its own over its own edge, not what the others leave of one: with two corners
 //!   nearly the same, one minus the others has no digits;
 //! - volumes that rounding could have made are no hit: the ray lies in the plane, where it meets an edge or nothing;
@@ -85,12 +87,12 @@ impl<L: Lane> Volumes<L> {
     #[inline(always)]
     fn new(ray: &RayLanes<L>, thin2: L, v: [Vec3<L>; 3]) -> Self {
         let (e1, e2, s) = (v[1] - v[0], v[2] - v[0], ray.origin - v[0]);
-        let (p, q) = (fused_cross(ray.direction, e2), fused_cross(s, e1));
+        let (normal, moment) = (fused_cross(e2, e1), fused_cross(ray.direction, s));
         Self {
-            det: fused_dot(e1, p),
-            u: fused_dot(s, p),
-            v: fused_dot(ray.direction, q),
-            t: fused_dot(e2, q),
+            det: fused_dot(ray.direction, normal),
+            u: fused_dot(-e2, moment),
+            v: fused_dot(e1, moment),
+            t: fused_dot(-s, normal),
             thin2: thin2 * (fused_dot(e1, e1) * fused_dot(e2, e2)),
         }
     }

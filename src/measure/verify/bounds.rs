@@ -22,8 +22,10 @@ pub enum Promise {
     ModerateSpheres,
     /// Spheres of such radii of which `f32` tells little: huge, or touching each other.
     Ground,
-    /// Cylinders of such radii, alone or beside others.
+    /// Cylinders of such radii.
     Cylinders,
+    /// Triangles, spheres and cylinders of such radii beside each other.
+    Mixed,
     /// Curved surfaces of such radii where they are grazed, and cylinders of extreme shape: what `f32` says of `t` means little.
     Grazing,
     /// Directions as short and as long as the domain allows.
@@ -98,8 +100,9 @@ impl Promise {
             Self::Closed => Bounds { gross, leaks: Some(FAST_LEAKS), ..NOTHING },
             Self::Leaks => Bounds { leaks: Some(FAST_LEAKS_OF_ONE), ..NOTHING },
             Self::ModerateSpheres => Bounds { gross, t_p99: Some(4.0), ..NOTHING },
-            Self::Triangles => Bounds { gross, t_p99: Some(8.0), ..NOTHING },
-            Self::Cylinders => Bounds { gross, t_p99: Some(12.0), ..NOTHING },
+            Self::Triangles => Bounds { gross, t_p99: Some(4.0), ..NOTHING },
+            Self::Cylinders => Bounds { gross, t_p99: Some(4.5), ..NOTHING },
+            Self::Mixed => Bounds { gross, t_p99: Some(12.0), ..NOTHING },
             Self::Magnitudes => Bounds { gross, t_p99: Some(5.0), ..NOTHING },
             Self::EdgeOn | Self::Starting | Self::Ground | Self::Grazing => Bounds { gross, ..NOTHING },
             Self::Leaving => Bounds { self_hits: Some(50_000.0), ..NOTHING },
@@ -112,7 +115,7 @@ impl Promise {
         let zero = Some(0.0);
         let t_p99 = match self {
             Self::EdgeOn => None,
-            Self::Cylinders | Self::Grazing | Self::Lengths => Some(12.0),
+            Self::Cylinders | Self::Mixed | Self::Grazing | Self::Lengths => Some(12.0),
             _ => Some(5.0),
         };
         let leaks = if self == Self::Closed { zero } else { None };

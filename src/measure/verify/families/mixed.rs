@@ -18,7 +18,7 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "axis-parallel",
         about: "along axes and in planes of two, with zeros of either sign, at shapes on a grid",
-        promise: Promise::Cylinders,
+        promise: Promise::Mixed,
         make: Make::Rays(axis_parallel),
     },
     Family {
@@ -30,7 +30,7 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "moderate-lengths",
         about: "directions of length 1e-6 to 1e6",
-        promise: Promise::Cylinders,
+        promise: Promise::Mixed,
         make: Make::Rays(moderate_lengths),
     },
     Family {
@@ -42,13 +42,13 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "t-max",
         about: "rays that end exactly at their hit, one number before or behind it",
-        promise: Promise::Cylinders,
+        promise: Promise::Mixed,
         make: Make::Rays(t_max),
     },
     Family {
         name: "mixed",
         about: "a dozen triangles, spheres and cylinders that interpenetrate",
-        promise: Promise::Cylinders,
+        promise: Promise::Mixed,
         make: Make::Rays(mixed),
     },
 ];
