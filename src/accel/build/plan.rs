@@ -75,7 +75,7 @@ impl Plan {
             roots -= 1;
         }
         let left = usize::from(self.left[roots - 1]);
-        (roots > 1).then_some([left, roots - left])
+        (roots > 1).then(|| [left, roots - left])
     }
 
     /// Children that each half contributes to the wide node over the subtree; `None` if it is a leaf.
