@@ -8,11 +8,12 @@ use clap::ValueHint;
 use clap::builder::{PossibleValuesParser, TypedValueParser};
 use rayon::ThreadPool;
 
-use super::args::{Tier, parse_size};
+use super::args::{BuildQuality, Tier, parse_size};
 use super::error::{CliError, Exit};
 use super::source::SceneSource;
 use super::stdio::{print, say};
 use super::{pipeline, simd};
+use crate::accel::Quality;
 use crate::measure::bench::{
     Baseline, BaselineError, Class, Counters, Options, Report, Scaling, SceneReport, Settings, Subject,
     TooFewSizes, View, bench_scene, box_tests_a_second, comparison_table, scaling_plot, table,
@@ -40,6 +41,9 @@ pub struct BenchArgs {
     /// How exactly rays are intersected
     #[arg(long, default_value = "watertight")]
     pub tier: Tier,
+    /// How much work goes into building the tree
+    #[arg(long, value_name = "QUALITY", default_value = "balanced")]
+    pub build_quality: BuildQuality,
     /// Threads that ask rays; 0 for all that this process may use
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u16).range(0..=4096))]
     pub threads: u16,
@@ -136,11 +140,12 @@ fn measure(args: &BenchArgs, pool: &ThreadPool, peers: &Peers) -> Result<Report,
         peak_box_tests_s: pool.install(box_tests_a_second),
     };
     let scenes: Result<_, CliError> =
-        scenes(args).iter().map(|text| scene(text, args.view, &options, pool, peers)).collect();
+        scenes(args).iter().map(|text| scene(text, args, &options, pool, peers)).collect();
     Ok(Report {
         octray: simd::VERSION.into(),
         settings: Settings {
             tier: options.tier.name().into(),
+            build_quality: Quality::from(args.build_quality).name().into(),
             threads: pool.current_num_threads(),
             size: options.size,
             runs: options.runs,
@@ -158,7 +163,7 @@ fn scenes(args: &BenchArgs) -> Vec<String> {
 
 fn scene(
     text: &str,
-    view: Option<View>,
+    args: &BenchArgs,
     options: &Options,
     pool: &ThreadPool,
     peers: &Peers,
@@ -166,11 +171,12 @@ fn scene(
     let (name, own_view) = view_of(text);
     let Ok(source) = SceneSource::parse(name);
     let usual = if pipeline::is_mesh(&source) { View::Outside } else { View::Scene };
-    let view = own_view.or(view).unwrap_or(usual);
+    let view = own_view.or(args.view).unwrap_or(usual);
     say(&format!("{source}: loading"));
     let compiled = pool.install(|| pipeline::open_bare(&source, options.size))?;
     let stem = source.stem();
-    let subject = pool.install(|| Subject::new(stem, compiled, view)).ok_or_else(|| {
+    let quality = args.build_quality.into();
+    let subject = pool.install(|| Subject::new(stem, compiled, view, quality)).ok_or_else(|| {
         CliError::new(Exit::Scene, format!("{source}: nothing to measure: there is nothing but planes"))
     })?;
     let peer_scenes = peers.scenes(&subject, options.tier, pool.current_num_threads());

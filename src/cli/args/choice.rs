@@ -2,6 +2,7 @@
 
 use clap::ValueEnum;
 
+use crate::accel::Quality;
 use crate::intersect::TierName;
 
 /// How exactly rays are intersected.
@@ -30,6 +31,16 @@ impl BuildQuality {
     /// As it is written in a scene file.
     pub(super) fn assignment(self) -> Option<String> {
         self.to_possible_value().map(|value| format!("\"{}\"", value.get_name()))
+    }
+}
+
+impl From<BuildQuality> for Quality {
+    fn from(quality: BuildQuality) -> Self {
+        match quality {
+            BuildQuality::Fast => Self::Fast,
+            BuildQuality::Balanced => Self::Balanced,
+            BuildQuality::High => Self::High,
+        }
     }
 }
 

@@ -146,7 +146,10 @@ impl Baseline {
 /// What must be equal for rates to compare.
 fn settings(report: &Report) -> String {
     let s = &report.settings;
-    format!("tier {}, {} threads, size {}x{}", s.tier, s.threads, s.size[0], s.size[1])
+    format!(
+        "tier {}, {} trees, {} threads, size {}x{}",
+        s.tier, s.build_quality, s.threads, s.size[0], s.size[1]
+    )
 }
 
 /// Comparisons for people.
@@ -205,7 +208,13 @@ mod tests {
         };
         Report {
             octray: "test".into(),
-            settings: Settings { tier: "watertight".into(), threads: 1, size: [8, 8], runs: 3 },
+            settings: Settings {
+                tier: "watertight".into(),
+                build_quality: "balanced".into(),
+                threads: 1,
+                size: [8, 8],
+                runs: 3,
+            },
             peak_box_tests_s: 1e9,
             scenes: vec![scene],
             scaling: None,

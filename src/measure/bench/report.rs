@@ -7,6 +7,7 @@ use super::check::Difference;
 use super::counters::CounterReading;
 use super::scaling::Scaling;
 use super::timing::Spread;
+use crate::accel::Quality;
 
 /// Everything that was measured.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -31,12 +32,20 @@ pub struct Report {
 pub struct Settings {
     /// Precision tier.
     pub tier: String,
+    /// How much work went into trees.
+    #[serde(default = "balanced")]
+    pub build_quality: String,
     /// Threads that asked rays.
     pub threads: usize,
     /// Width and height of the picture that camera rays sample.
     pub size: [u32; 2],
     /// How often each engine was timed.
     pub runs: usize,
+}
+
+/// What trees were built with before it was a setting.
+fn balanced() -> String {
+    Quality::Balanced.name().to_owned()
 }
 
 /// What was measured of a scene.

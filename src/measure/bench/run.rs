@@ -76,7 +76,7 @@ pub fn bench_scene(
 
 fn own_build(subject: &Subject) -> BuildReport {
     let (seconds, bytes) = (subject.build_s, subject.tree_bytes() as f64);
-    BuildReport::new("octray", "default", subject.primitive_count(), seconds, Some(bytes))
+    BuildReport::new("octray", subject.quality.name(), subject.primitive_count(), seconds, Some(bytes))
 }
 
 /// The engines of a scene, in the order of the report.

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use super::timing::timed;
 use super::view::{View, within};
-use crate::accel::Accel;
+use crate::accel::{Accel, Quality};
 use crate::geometry::{Geometry, Instance, Planes};
 use crate::intersect::PrimKind;
 use crate::math::{Aabb, Transform, Vec3};
@@ -34,6 +34,8 @@ pub struct Subject {
     ///
     /// Planes have no bounds: they stand before the tree, other ray tracers have none, and every ray would hit one.
     pub geometry: Geometry,
+    /// How much work went into its tree.
+    pub quality: Quality,
     /// Its tree.
     pub accel: Accel,
     /// Seconds that building it took the rayon pool that [`Subject::new`] was called in: CPU time of one thread, wall time
@@ -47,7 +49,7 @@ pub struct Subject {
 
 impl Subject {
     /// Takes a scene apart, scales it, and builds its tree anew. `None` where nothing but planes is left.
-    pub fn new(name: String, scene: Scene, view: View) -> Option<Self> {
+    pub fn new(name: String, scene: Scene, view: View, quality: Quality) -> Option<Self> {
         let bounds = scene.accel.bounds();
         if bounds.is_empty() {
             return None;
@@ -57,7 +59,7 @@ impl Subject {
         let mut geometry = Arc::unwrap_or_clone(geometry);
         geometry.planes = Planes::default();
         scale(&mut geometry, factor as f32);
-        let (accel, build_s) = timed(rayon::current_num_threads(), || Accel::build(&geometry));
+        let (accel, build_s) = timed(rayon::current_num_threads(), || Accel::build_with(&geometry, quality));
         let bounds = accel.bounds();
         let light = match view {
             View::Scene => target(&lights, factor, &bounds),
@@ -65,7 +67,7 @@ impl Subject {
             View::Inside => Target::Point(within(&bounds, [0.5, 0.8, 0.5])),
         };
         let camera = view.camera(&camera, factor, &bounds);
-        Some(Self { name, view, geometry, accel, build_s, camera, light })
+        Some(Self { name, view, geometry, quality, accel, build_s, camera, light })
     }
 
     /// Length of the diagonal of the bounds.

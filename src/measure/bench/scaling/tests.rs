@@ -39,7 +39,13 @@ fn scene(triangles: usize) -> SceneReport {
 fn report(scenes: Vec<SceneReport>) -> Report {
     Report {
         octray: "test".into(),
-        settings: Settings { tier: "watertight".into(), threads: 1, size: [8, 8], runs: 3 },
+        settings: Settings {
+            tier: "watertight".into(),
+            build_quality: "balanced".into(),
+            threads: 1,
+            size: [8, 8],
+            runs: 3,
+        },
         peak_box_tests_s: 1e9,
         scenes,
         scaling: None,
