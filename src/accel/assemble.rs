@@ -3,7 +3,7 @@
 use super::block::{CylinderBlock, SphereBlock, TriangleBlock};
 use super::build::{BLOCK_BYTES, BuildPrimitive, Cuttable, KINDS, MAX_DEPTH, Quality, Tree, build};
 use super::instance::{PlacedTree, Placement, TreeRoot};
-use super::{Accel, BuiltGroup};
+use super::{Accel, BuiltGroup, unchecked};
 use crate::geometry::{Geometry, Group, Instance, Triangles, row3};
 use crate::intersect::PrimKind;
 use crate::math::{Aabb, WIDTH};
@@ -134,6 +134,7 @@ impl Accel {
         let entries = 7 * tree.max_depth.min(MAX_DEPTH) as usize + WIDTH;
         // A ray may be in the world's tree and in one group's at a time.
         self.stack_bound = self.stack_bound.max(2 * entries);
+        unchecked::reserve(&mut self.nodes, tree.nodes.len());
         self.nodes.append(&mut tree.nodes);
         root
     }
@@ -149,7 +150,9 @@ fn pack<B: Send>(to: &mut Vec<B>, tree: &Tree, rows: &Rows, kind: u8, block: imp
         }
         block(&row[..numbers.len()])
     };
-    to.par_extend(tree.leaves_of(kind).par_iter().map(pack));
+    let leaves = tree.leaves_of(kind);
+    unchecked::reserve(to, leaves.len());
+    to.par_extend(leaves.par_iter().map(pack));
 }
 
 /// The tree over the rows of a group, and in the world over its instances too.

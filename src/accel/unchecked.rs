@@ -25,14 +25,15 @@ pub(super) fn node(accel: &Accel, child: ChildRef) -> &Node8 {
     unsafe { accel.nodes.get_unchecked(index) }
 }
 
-/// The planes of a node that an octant's rays meet first, or last, on an axis: see [`Node8::PLANES`].
+/// The planes of a node on an axis that a ray meets first, and last. **Needs:** `backward` is 0 where the ray goes along the
+/// axis, else [`Node8::ACROSS`].
 #[inline(always)]
-pub(super) fn planes(node: &Node8, from: u8) -> f32x8 {
-    debug_assert!(usize::from(from) % size_of::<[f32; WIDTH]>() == 0);
-    debug_assert!(usize::from(from) < std::mem::offset_of!(Node8, child));
-    // SAFETY: six columns of planes stand at the start of a node, and `from` is where one of them starts.
-    f32x8::new(unsafe {
-        *std::ptr::from_ref(node).cast::<u8>().add(usize::from(from)).cast::<[f32; WIDTH]>()
+pub(super) fn planes(node: &Node8, axis: usize, backward: u8) -> [f32x8; 2] {
+    debug_assert!(axis < 3 && (backward == 0 || backward == Node8::ACROSS));
+    let start = std::ptr::from_ref(node).cast::<[f32; WIDTH]>().wrapping_add(axis).cast::<u8>();
+    [backward, backward ^ Node8::ACROSS].map(|side| {
+        // SAFETY: six columns of planes stand at the start of a node, those of the greatest coordinates `ACROSS` further.
+        f32x8::new(unsafe { *start.add(usize::from(side)).cast::<[f32; WIDTH]>() })
     })
 }
 
@@ -52,11 +53,12 @@ pub(super) fn prefetch(accel: &Accel, child: ChildRef) {
     {
         use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
         let (nodes, blocks) = (accel.nodes.as_ptr().cast::<i8>(), accel.triangles.as_ptr().cast::<i8>());
-        let (start, size) = match child.is_node() {
-            true => (nodes, size_of::<Node8>()),
-            false => (blocks, size_of::<TriangleBlock>()),
+        let (index, more) = (child.index() as usize, size_of::<TriangleBlock>() - size_of::<Node8>());
+        let as_node = index * size_of::<Node8>();
+        let first = match child.is_node() {
+            true => nodes.wrapping_add(as_node),
+            false => blocks.wrapping_add(as_node + index * more),
         };
-        let first = start.wrapping_add(child.index() as usize * size);
         for line in 0..5 {
             // SAFETY: a prefetch reads nothing that the program sees, and faults at no address.
             unsafe { _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(64 * line)) };
@@ -64,6 +66,28 @@ pub(super) fn prefetch(accel: &Accel, child: ChildRef) {
     }
     #[cfg(not(target_arch = "x86_64"))]
     let _ = (accel, child);
+}
+
+/// Bytes of the pages that addresses have to begin with to be advised on.
+#[cfg(target_os = "linux")]
+const PAGE_BYTES: usize = 4096;
+
+/// Makes room for exactly so many more elements, in huge pages where the system hands them out on request: rays that go
+/// anywhere then seldom wait for addresses to be translated.
+pub(super) fn reserve<T>(to: &mut Vec<T>, more: usize) {
+    to.reserve_exact(more);
+    #[cfg(target_os = "linux")]
+    {
+        use rustix::mm::{Advice, madvise};
+        let room = to.spare_capacity_mut().as_mut_ptr_range();
+        let skip = room.start.cast::<u8>().align_offset(PAGE_BYTES);
+        let size = (room.end.addr() - room.start.addr()).saturating_sub(skip);
+        // SAFETY: the advice changes how memory that nothing refers to yet is mapped, and neither contents nor validity.
+        // That it may be refused changes nothing.
+        let _ = unsafe {
+            madvise(room.start.cast::<u8>().wrapping_add(skip).cast(), size, Advice::LinuxHugepage)
+        };
+    }
 }
 
 /// Stacks of many rays, one after the other: references and where the ray enters them, the next to visit last.
@@ -150,37 +174,4 @@ impl Stacks {
 #[inline(always)]
 fn first_lanes(count: usize) -> u32 {
     if count < WIDTH { (1 << count) - 1 } else { 0xff }
-}
-
-/// A list of slots with room for all of them.
-#[derive(Debug)]
-pub(super) struct Slots<const N: usize> {
-    place: [u32; N],
-    len: usize,
-}
-
-impl<const N: usize> Slots<N> {
-    pub(super) fn new() -> Self {
-        Self { place: [0; N], len: 0 }
-    }
-    #[inline(always)]
-    pub(super) fn len(&self) -> usize {
-        self.len
-    }
-    #[inline(always)]
-    pub(super) fn clear(&mut self) {
-        self.len = 0;
-    }
-    #[inline(always)]
-    pub(super) fn get(&self, i: usize) -> usize {
-        self.place[i] as usize
-    }
-    /// Appends a slot if it is wanted, without a branch. **Needs:** fewer than `N` slots in the list.
-    #[inline(always)]
-    pub(super) fn push_if(&mut self, wanted: bool, slot: usize) {
-        debug_assert!(self.len < N);
-        // SAFETY: there are fewer slots than `N`, and each stands in one list at most.
-        unsafe { *self.place.get_unchecked_mut(self.len) = slot as u32 };
-        self.len += usize::from(wanted);
-    }
 }
