@@ -139,7 +139,14 @@ impl TriangleBlock {
         lanes: &[usize; WIDTH],
         (v, axis): (usize, usize),
     ) -> L {
-        L::load_f32(&eight(|i| blocks[i].corner[v][axis][lanes[i] % WIDTH]))
+        // Each lane from a column loaded whole: eight loads of a number each become a gather, which is slow on many CPUs.
+        let column =
+            |i: usize| f32x8::new(blocks[i].corner[v][axis]).shuffle_wrapping(u32x8::splat(lanes[i] as u32));
+        let mut gathered = column(0);
+        for i in 1..WIDTH {
+            gathered = Lane::select(Mask::from_bits(1 << i), column(i), gathered);
+        }
+        L::load_f32(&gathered.to_array())
     }
     /// Corners, axes and triangles.
     #[inline(always)]

@@ -83,10 +83,10 @@ struct Costs {
 
 impl Costs {
     /// A node and a leaf, for a ray alone.
-    const ONE_IN_NODE: i32 = 11;
-    const ONE_IN_LEAF: i32 = 12;
+    const ONE_IN_NODE: i32 = 8;
+    const ONE_IN_LEAF: i32 = 10;
     /// Starting eight rays, each alone.
-    const START: i32 = 180;
+    const START: i32 = 130;
 
     fn of(octant: Octant, any: bool) -> Self {
         Self { node: if octant.shared { 21 } else { 45 }, leaf: if any { 70 } else { 150 } }

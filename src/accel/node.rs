@@ -1,5 +1,6 @@
 //! The node of the 8-wide tree, and the 32-bit reference that leads from a node to what is below.
 
+use crate::intersect::PrimKind;
 use crate::math::{Aabb, WIDTH};
 
 /// Eight boxes and what each of them holds.
@@ -25,9 +26,8 @@ impl Node8 {
         child: [ChildRef::EMPTY; WIDTH],
     };
 
-    /// For an octant of directions, where the columns of planes that its rays meet first start, by axis, and then of
-    /// those that they meet last: in bytes from the start of a node.
-    pub(super) const PLANES: [[u8; 6]; WIDTH] = planes_by_octant();
+    /// Bytes from a column of least coordinates to that of greatest on the same axis.
+    pub(super) const ACROSS: u8 = size_of::<[[f32; WIDTH]; 3]>() as u8;
 
     /// The box of a slot.
     pub fn bounds(&self, slot: usize) -> Aabb {
@@ -41,23 +41,6 @@ impl Node8 {
             self.hi[k][slot] = bounds.max[k];
         }
     }
-}
-
-const fn planes_by_octant() -> [[u8; 6]; WIDTH] {
-    let column = size_of::<[f32; WIDTH]>();
-    let mut planes = [[0; 6]; WIDTH];
-    let mut octant = 0;
-    while octant < WIDTH {
-        let mut axis = 0;
-        while axis < 3 {
-            let backward = octant >> axis & 1;
-            planes[octant][axis] = (column * (axis + 3 * backward)) as u8;
-            planes[octant][axis + 3] = (column * (axis + 3 * (1 - backward))) as u8;
-            axis += 1;
-        }
-        octant += 1;
-    }
-    planes
 }
 
 /// Where a slot of a node leads: to a node, to a leaf of some kind of primitive, or nowhere.
@@ -107,6 +90,11 @@ impl ChildRef {
     #[inline(always)]
     pub const fn is_node(self) -> bool {
         self.0 <= INDEX_MASK
+    }
+    /// True if it leads to a leaf of triangles.
+    #[inline(always)]
+    pub(super) const fn is_triangles(self) -> bool {
+        self.kind() == PrimKind::Triangle as u8
     }
     /// True if it leads nowhere.
     #[inline(always)]

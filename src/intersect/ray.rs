@@ -1,6 +1,6 @@
 //! What goes into an intersection test and what comes out.
 
-use crate::math::{Lane, Mask, Vec3};
+use crate::math::{Lane, Mask, Vec3, WIDTH, Wide};
 
 /// A ray as users give it. Hits count where `t_min < t < t_max`, with `t` in units of `direction`'s length.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -141,6 +141,17 @@ impl<L: Lane> RayLanes<L> {
             t_max: self.t_max.get(i),
         }
     }
+    /// Origin, direction and bounds of `t` one after the other.
+    #[inline(always)]
+    fn to_columns(self) -> [L; WIDTH] {
+        let (o, d) = (self.origin, self.direction);
+        [o.x, o.y, o.z, d.x, d.y, d.z, self.t_min, self.t_max]
+    }
+    /// The reverse of [`RayLanes::to_columns`].
+    #[inline(always)]
+    pub(crate) fn of_columns([ox, oy, oz, dx, dy, dz, t_min, t_max]: [L; WIDTH]) -> Self {
+        Self { origin: Vec3::new(ox, oy, oz), direction: Vec3::new(dx, dy, dz), t_min, t_max }
+    }
     /// The same rays in `f64`, exactly.
     #[inline(always)]
     pub fn widen(&self) -> RayLanes<L::Double> {
@@ -150,6 +161,19 @@ impl<L: Lane> RayLanes<L> {
             t_min: self.t_min.widen(),
             t_max: self.t_max.widen(),
         }
+    }
+}
+
+impl<L: Wide> RayLanes<L> {
+    /// Each of eight rays by itself, in the order of [`RayLanes::of_columns`].
+    #[inline(always)]
+    pub(crate) fn to_rows(self) -> [L; WIDTH] {
+        L::transpose(self.to_columns())
+    }
+    /// The reverse of [`RayLanes::to_rows`].
+    #[inline(always)]
+    pub(crate) fn of_rows(rows: [L; WIDTH]) -> Self {
+        Self::of_columns(L::transpose(rows))
     }
 }
 

@@ -4,7 +4,7 @@ use wide::{f32x8, f64x8};
 
 use super::triangle::{ExactVolumes, FilteredVolumes, Glimpse, Woop};
 use super::{LaneHit, RayLanes, cylinder, doubt, sphere};
-use crate::math::{Lane, Mask, Real, Stored, Vec3, WIDTH};
+use crate::math::{Lane, Mask, Real, Stored, Vec3, WIDTH, Wide};
 
 /// A triangle test: what it prepares once a ray, and what it asks of a triangle.
 pub trait TriangleTest: Copy + Send + Sync + 'static {
@@ -55,12 +55,8 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
 
     /// What is computed once for a ray that meets eight triangles at a time.
     type OneRay<R: Real>: Copy;
-    /// What lane `i` of several rays was prepared with, for that ray alone.
-    fn one_of<L: Lane>(
-        ray: &RayLanes<L::Scalar>,
-        prepared: &Self::Prepared<L>,
-        i: usize,
-    ) -> Self::OneRay<L::Scalar>;
+    /// What eight rays were prepared with, for each alone.
+    fn each_of<L: Wide>(ray: &RayLanes<L>, prepared: &Self::Prepared<L>) -> [Self::OneRay<L::Scalar>; WIDTH];
     /// Of eight triangles, stored by corner and axis, the lanes that [`TriangleTest::test`] may accept, as bits.
     fn candidates<L: Lane>(
         ray: &RayLanes<L::Scalar>,
@@ -179,7 +175,7 @@ pub trait Tier: sealed::Sealed + Copy + Default + Send + Sync + 'static {
     /// Number type of rays, hits and shading.
     type Real: Real + Stored<Self::Wide>;
     /// Eight of them.
-    type Wide: Lane<Scalar = Self::Real, Bits = wide::u32x8>;
+    type Wide: Wide<Scalar = Self::Real, Bits = wide::u32x8>;
     /// The triangle test.
     type Triangle: TriangleTest;
     /// How spheres and cylinders are decided.

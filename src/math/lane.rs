@@ -3,6 +3,8 @@
 use std::fmt::Debug;
 use std::ops::{Add, AddAssign, BitAnd, BitOr, BitXor, Div, Mul, Neg, Not, Sub};
 
+use super::WIDTH;
+
 /// One truth value a lane.
 pub trait Mask:
     Copy + Debug + BitAnd<Output = Self> + BitOr<Output = Self> + BitXor<Output = Self> + Not<Output = Self>
@@ -157,6 +159,16 @@ pub trait Lane:
         let magnitude = self.abs();
         Self::select(sign.lt(Self::zero()), -magnitude, magnitude)
     }
+}
+
+/// Lanes of width eight.
+pub trait Wide: Lane {
+    /// Lane `k` of row `i` becomes lane `i` of row `k`.
+    fn transpose(rows: [Self; WIDTH]) -> [Self; WIDTH];
+    /// The lanes as they are stored.
+    fn to_lanes(self) -> [Self::Scalar; WIDTH];
+    /// The reverse.
+    fn of_lanes(lanes: [Self::Scalar; WIDTH]) -> Self;
 }
 
 /// A number type that rays may be stored in, for lanes of the same or of a wider one.

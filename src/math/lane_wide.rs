@@ -4,7 +4,7 @@ use std::ops::{BitAnd, BitOr, BitXor, Not};
 
 use wide::{f32x8, f64x8, i32x8, u32x8, u64x8};
 
-use super::{BitLane, Lane, Mask, WIDTH, eight};
+use super::{BitLane, Lane, Mask, WIDTH, Wide, eight};
 
 const LANE_BITS: [u32; WIDTH] = [1, 2, 4, 8, 16, 32, 64, 128];
 
@@ -250,6 +250,36 @@ impl Lane for f64x8 {
     }
 }
 
+impl Wide for f32x8 {
+    #[inline(always)]
+    fn transpose(rows: [Self; WIDTH]) -> [Self; WIDTH] {
+        f32x8::transpose(rows)
+    }
+    #[inline(always)]
+    fn to_lanes(self) -> [f32; WIDTH] {
+        self.to_array()
+    }
+    #[inline(always)]
+    fn of_lanes(lanes: [f32; WIDTH]) -> Self {
+        Self::new(lanes)
+    }
+}
+
+impl Wide for f64x8 {
+    #[inline(always)]
+    fn transpose(rows: [Self; WIDTH]) -> [Self; WIDTH] {
+        f64x8::transpose(rows)
+    }
+    #[inline(always)]
+    fn to_lanes(self) -> [f64; WIDTH] {
+        self.to_array()
+    }
+    #[inline(always)]
+    fn of_lanes(lanes: [f64; WIDTH]) -> Self {
+        Self::new(lanes)
+    }
+}
+
 #[inline(always)]
 fn as_signed(words: u32x8) -> i32x8 {
     bytemuck::cast(words)
@@ -264,6 +294,16 @@ mod tests {
         for bits in 0..256 {
             assert_eq!(Mask32::from_bits(bits).bits(), bits);
             assert_eq!(Mask64::from_bits(bits).bits(), bits);
+        }
+    }
+
+    #[test]
+    fn transposing_swaps_rows_and_lanes() {
+        let rows = eight(|i| f32x8::from_fn(|k| (10 * i + k) as f32));
+        let doubles = rows.map(Lane::widen);
+        for (i, (row, double)) in Wide::transpose(rows).iter().zip(Wide::transpose(doubles)).enumerate() {
+            assert!((0..WIDTH).all(|k| Lane::get(row, k) == (10 * k + i) as f32));
+            assert!((0..WIDTH).all(|k| Lane::get(&double, k) == (10 * k + i) as f64));
         }
     }
 

@@ -1,12 +1,22 @@
 //! Culling boxes of the tree: conservative, in `f32`, fused where the build fuses.
 
+use wide::f32x8;
+
 use super::safe_reciprocal;
-use crate::math::{Lane, Vec3};
+use crate::math::{Lane, Vec3, WIDTH, eight};
 
 /// Roundoffs of the largest coordinate by which tree boxes are widened: those that [`super::OwnBox`] allows a triangle
 /// plus the roundings in which the fused and the plain slab may differ (at most 6, counted with the subtraction of the
 /// origin), plus as many again for origins rounded to `f32` in the `Exact` tier.
 const PAD_ROUNDOFFS: f64 = 36.0;
+
+/// A ray of [`CullRay`] by itself.
+#[derive(Clone, Copy, Debug)]
+pub struct OneCullRay {
+    /// Reciprocal and near offset by axis, and the far offset of the first two.
+    row: [f32; WIDTH],
+    far_offset_z: f32,
+}
 
 /// Rays prepared for slab tests against boxes of the tree.
 ///
@@ -30,28 +40,6 @@ impl<L: Lane> CullRay<L> {
         let width = reciprocal.abs() * (size + size) * half_roundoffs;
         let start = origin.scale(reciprocal);
         Self { reciprocal, near_offset: -(start + width), far_offset: width - start }
-    }
-
-    /// Lane `i` as a ray of its own.
-    #[inline(always)]
-    pub fn get(&self, i: usize) -> CullRay<L::Scalar> {
-        let one = |v: &Vec3<L>| Vec3::new(v.x.get(i), v.y.get(i), v.z.get(i));
-        CullRay {
-            reciprocal: one(&self.reciprocal),
-            near_offset: one(&self.near_offset),
-            far_offset: one(&self.far_offset),
-        }
-    }
-
-    /// One ray in all lanes.
-    #[inline(always)]
-    pub fn splat(one: &CullRay<L::Scalar>) -> Self {
-        let splat = |v: Vec3<L::Scalar>| Vec3::splat([v.x, v.y, v.z]);
-        Self {
-            reciprocal: splat(one.reciprocal),
-            near_offset: splat(one.near_offset),
-            far_offset: splat(one.far_offset),
-        }
     }
 
     /// Bit k set in lane i where the ray goes against axis k.
@@ -81,5 +69,24 @@ impl<L: Lane> CullRay<L> {
         let near = Vec3::new(L::select(bx, hi.x, lo.x), L::select(by, hi.y, lo.y), L::select(bz, hi.z, lo.z));
         let far = Vec3::new(L::select(bx, lo.x, hi.x), L::select(by, lo.y, hi.y), L::select(bz, lo.z, hi.z));
         self.interval(near, far, t_min, t_max)
+    }
+}
+
+impl CullRay<f32x8> {
+    /// Each ray by itself.
+    #[inline(always)]
+    pub fn each(&self) -> [OneCullRay; WIDTH] {
+        let (r, n, f) = (self.reciprocal, self.near_offset, self.far_offset);
+        let rows = f32x8::transpose([r.x, r.y, r.z, n.x, n.y, n.z, f.x, f.y]);
+        eight(|i| OneCullRay { row: rows[i].to_array(), far_offset_z: f.z.get(i) })
+    }
+
+    /// One ray in all lanes.
+    #[inline(always)]
+    pub fn splat(one: &OneCullRay) -> Self {
+        let [rx, ry, rz, nx, ny, nz, fx, fy] = one.row;
+        let splat = |x, y, z| Vec3::splat([x, y, z]);
+        let far_offset = splat(fx, fy, one.far_offset_z);
+        Self { reciprocal: splat(rx, ry, rz), near_offset: splat(nx, ny, nz), far_offset }
     }
 }

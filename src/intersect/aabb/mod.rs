@@ -12,7 +12,7 @@ mod cull;
 pub mod oracle;
 mod own;
 
-pub use cull::CullRay;
+pub use cull::{CullRay, OneCullRay};
 pub use own::OwnBox;
 
 use crate::math::{Lane, Real, Vec3};

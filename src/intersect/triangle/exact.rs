@@ -12,7 +12,7 @@
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
 use crate::math::{
-    Lane, Mask, Pair, Real, Vec3, WIDTH, determinant, determinant_sign, gamma_of, three, two_sum,
+    Lane, Mask, Pair, Real, Vec3, WIDTH, Wide, determinant, determinant_sign, gamma_of, three, two_sum,
 };
 
 /// See the module.
@@ -66,7 +66,9 @@ impl TriangleTest for ExactVolumes {
     type OneRay<R: Real> = ();
 
     #[inline(always)]
-    fn one_of<L: Lane>(_: &RayLanes<L::Scalar>, _: &OwnBox<L>, _: usize) {}
+    fn each_of<L: Wide>(_: &RayLanes<L>, _: &OwnBox<L>) -> [(); WIDTH] {
+        [(); WIDTH]
+    }
 
     #[inline(always)]
     fn candidates<L: Lane>(ray: &RayLanes<L::Scalar>, (): &(), corners: &[[[f32; WIDTH]; 3]; 3]) -> u32 {

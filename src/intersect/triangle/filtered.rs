@@ -17,7 +17,7 @@
 //! **Source:** Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
 
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH, fused_cross, fused_dot, three};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, Wide, fused_cross, fused_dot, three};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
@@ -58,7 +58,9 @@ impl TriangleTest for FilteredVolumes {
     type OneRay<R: Real> = ();
 
     #[inline(always)]
-    fn one_of<L: Lane>(_: &RayLanes<L::Scalar>, _: &L, _: usize) {}
+    fn each_of<L: Wide>(_: &RayLanes<L>, _: &L) -> [(); WIDTH] {
+        [(); WIDTH]
+    }
 
     #[inline(always)]
     fn candidates<L: Lane>(ray: &RayLanes<L::Scalar>, _: &(), corners: &[[[f32; WIDTH]; 3]; 3]) -> u32 {

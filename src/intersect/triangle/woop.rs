@@ -14,7 +14,7 @@
 use super::{Glimpse, near, plane_coordinates};
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH, three};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, Wide, eight, three};
 
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
@@ -137,14 +137,12 @@ impl TriangleTest for Woop {
     type OneRay<R: Real> = OneShear<R>;
 
     #[inline(always)]
-    fn one_of<L: Lane>(ray: &RayLanes<L::Scalar>, shear: &Shear<L>, i: usize) -> OneShear<L::Scalar> {
-        let (along_x, along_y) = (shear.along_x.bits() >> i & 1, shear.along_y.bits() >> i & 1);
-        let axes = AXES[if along_x != 0 { 0 } else { 2 - along_y as usize }];
-        OneShear {
-            axes,
-            origin: by_axes(&axes, &ray.origin),
-            shear: [shear.shear_x.get(i), shear.shear_y.get(i)],
-        }
+    fn each_of<L: Wide>(ray: &RayLanes<L>, shear: &Shear<L>) -> [OneShear<L::Scalar>; WIDTH] {
+        let (o, none) = (shear.permute(ray.origin), L::zero());
+        let rows = L::transpose([o.x, o.y, o.z, shear.shear_x, shear.shear_y, none, none, none]);
+        let (along_x, along_y) = (shear.along_x.bits(), shear.along_y.bits());
+        let axes = |i: usize| AXES[(along_x >> i & 1 | (along_y >> i & 1) << 1) as usize];
+        eight(|i| OneShear { axes: axes(i), row: rows[i].to_lanes() })
     }
 
     #[inline(always)]
@@ -169,26 +167,19 @@ impl TriangleTest for Woop {
 pub struct OneShear<R> {
     /// Stored axes that stand for `x`, `y` and `z`.
     axes: [u8; 3],
-    /// By the axes above.
-    origin: [R; 3],
-    shear: [R; 2],
+    /// The origin by these axes, then the shear; the rest fills up.
+    row: [R; WIDTH],
 }
 
-/// Stored axes that stand for `x`, `y` and `z`, by the last of them.
-const AXES: [[u8; 3]; 3] = [[1, 2, 0], [2, 0, 1], [0, 1, 2]];
-
-/// The components of a vector that stand for `x`, `y` and `z`.
-#[inline(always)]
-fn by_axes<R: Real>(axes: &[u8; 3], v: &Vec3<R>) -> [R; 3] {
-    three(|k| v.axis(usize::from(axes[k])))
-}
+/// Stored axes that stand for `x`, `y` and `z`, where a ray goes mostly along `z`, `x` and `y`.
+const AXES: [[u8; 3]; 4] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 1, 2]];
 
 impl<R: Real> OneShear<R> {
     /// The two coordinates across the ray of eight corners.
     #[inline(always)]
     fn across<L: Lane<Scalar = R>>(&self, corner: &[[f32; WIDTH]; 3]) -> (L, L) {
-        let [x, y, z] = three(|k| L::load_f32(&corner[usize::from(self.axes[k])]) - L::splat(self.origin[k]));
-        (x - L::splat(self.shear[0]) * z, y - L::splat(self.shear[1]) * z)
+        let [x, y, z] = three(|k| L::load_f32(&corner[usize::from(self.axes[k])]) - L::splat(self.row[k]));
+        (x - L::splat(self.row[3]) * z, y - L::splat(self.row[4]) * z)
     }
 }
 

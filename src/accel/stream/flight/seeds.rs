@@ -20,12 +20,15 @@ pub(super) struct Seeds<T: Tier, A: Answers<T>> {
     queries: A::Query,
     /// Row of the first.
     first: u32,
+    /// How many are to start.
+    pub(super) count: usize,
 }
 
 impl<T: Tier, A: Answers<T>> Seeds<T, A> {
     /// The rays from a row on.
     #[inline(always)]
     pub(super) fn new<S: Stored<T::Wide>>(accel: &Accel, rays: &RayColumns<S>, first: u32) -> Self {
+        let count = WIDTH.min(rays.len - first as usize);
         let rays: RayLanes<T::Wide> = rays.load(first as usize);
         let mut queries = A::ask(&rays);
         ask_planes(accel, &rays, &mut queries);
@@ -35,6 +38,7 @@ impl<T: Tier, A: Answers<T>> Seeds<T, A> {
             views: Views::new(rays, cull_rays::<T>(&rays, accel.world)),
             queries,
             first,
+            count,
         }
     }
 
@@ -67,41 +71,8 @@ impl Alone {
     pub(in super::super) fn push(&mut self, first: usize) {
         self.runs.push(first as u32);
     }
-}
-
-/// Rays that wait, of which up to eight are prepared.
-pub(super) struct Waiting<'r, T: Tier, A: Answers<T>, S> {
-    accel: &'r Accel,
-    rays: &'r RayColumns<'r, S>,
-    runs: std::slice::Iter<'r, u32>,
-    seeds: Seeds<T, A>,
-    /// Lanes of the seeds that have started, and how many are to.
-    next: usize,
-    count: usize,
-}
-
-impl<'r, T: Tier, A: Answers<T>, S: Stored<T::Wide>> Waiting<'r, T, A, S> {
-    /// `None` without any.
-    pub(super) fn new(accel: &'r Accel, rays: &'r RayColumns<'r, S>, alone: &'r Alone) -> Option<Self> {
-        let mut runs = alone.runs.iter();
-        let first = *runs.next()?;
-        let seeds = Seeds::new(accel, rays, first);
-        Some(Self { accel, rays, runs, seeds, next: 0, count: run_from(rays.len, first) })
+    /// The first rows of the runs.
+    pub(super) fn runs(&self) -> impl Iterator<Item = u32> {
+        self.runs.iter().copied()
     }
-
-    /// The next to start, as a lane of seeds.
-    #[inline(always)]
-    pub(super) fn next(&mut self) -> Option<(&Seeds<T, A>, usize)> {
-        if self.next == self.count {
-            let first = *self.runs.next()?;
-            self.seeds = Seeds::new(self.accel, self.rays, first);
-            (self.next, self.count) = (0, run_from(self.rays.len, first));
-        }
-        self.next += 1;
-        Some((&self.seeds, self.next - 1))
-    }
-}
-
-fn run_from(len: usize, first: u32) -> usize {
-    WIDTH.min(len - first as usize)
 }

@@ -4,7 +4,7 @@ use wide::f32x8;
 
 use super::super::Answers;
 use super::seeds::Seeds;
-use super::view::{Aim, TestRay, View};
+use super::view::{Aim, TestRay, View, Views};
 use crate::accel::Accel;
 use crate::accel::block::PrimitivesByRay;
 use crate::accel::leaf::{BlockVisitor, TestRays, Testable, with_block};
@@ -12,8 +12,8 @@ use crate::accel::node::{ChildRef, Node8};
 use crate::accel::query::Query;
 use crate::accel::unchecked;
 use crate::intersect::aabb::CullRay;
-use crate::intersect::{LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Vec3};
+use crate::intersect::{LaneHit, RayLanes, Tier, TriangleTest};
+use crate::math::{Lane, Mask, Vec3, Wide, three};
 
 /// A ray under way; what the node pass needs stands first, in one cache line.
 #[derive(Clone, Copy)]
@@ -27,8 +27,6 @@ pub(super) struct Slot<T: Tier, Q> {
     /// Where on the stacks the last entry of its own stands, or the one at the bottom.
     pub(super) top: u32,
     pub(super) row: u32,
-    /// Found something in the leaf that is next.
-    pub(super) accepted: bool,
     test: TestRay<T>,
     pub(super) query: Q,
     /// The ray in the world, while it is in the space of an instance.
@@ -46,7 +44,6 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
             next: ChildRef::EMPTY,
             top: 0,
             row: 0,
-            accepted: false,
             test: home.test,
             query: seeds.query(i),
             home,
@@ -62,7 +59,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
         root: u32,
         bottom: usize,
     ) {
-        self.turn(&seeds.views.get(i));
+        seeds.views.put(i, &mut self.aim, &mut self.test);
         self.t_min = Lane::get(&seeds.t_min, i);
         self.limit = Lane::get(&seeds.limit, i);
         self.next = ChildRef::node(root);
@@ -71,45 +68,50 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
         self.query = seeds.query(i);
     }
 
-    /// The ray in the space that it is in.
+    /// The ray in the space that it is in, as a row of [`RayLanes::of_rows`].
     #[inline(always)]
-    pub(super) fn ray(&self) -> &RayLanes<T::Real> {
-        &self.test.ray
-    }
-
-    /// Puts a hit in the leaf that is next to the query.
-    #[inline(always)]
-    pub(super) fn accept(&mut self, hit: &LaneHit<T::Real>, id: u32) {
-        self.accepted |= self.query.accept(&self.test.ray, hit, id);
+    pub(super) fn row_of_ray(&self) -> T::Wide {
+        T::Wide::of_lanes(self.test.ray)
     }
 
     #[inline(always)]
-    fn turn(&mut self, view: &View<T>) {
-        self.aim = view.aim;
-        self.test = view.test;
+    fn ray(&self) -> RayLanes<T::Real> {
+        RayLanes::of_columns(self.test.ray)
     }
 
-    /// Goes from the world into the space of an instance.
+    /// Takes the ray to the child that stands, or would, at place `top` of the stacks.
     #[inline(always)]
-    pub(super) fn enter(&mut self, view: &View<T>, instance: u32) {
+    pub(super) fn go_on(&mut self, next: ChildRef, top: usize, accel: &Accel) {
+        (self.next, self.top) = (next, top as u32);
+        unchecked::prefetch(accel, next);
+    }
+
+    /// Puts a hit in the leaf that is next to the query; true if it is accepted.
+    #[inline(always)]
+    pub(super) fn accept(&mut self, hit: &LaneHit<T::Real>, id: u32) -> bool {
+        self.query.accept(&self.ray(), hit, id)
+    }
+
+    /// Goes from the world into the space of an instance, where it is ray `i` of eight.
+    #[inline(always)]
+    pub(super) fn enter(&mut self, views: &Views<T>, i: usize, instance: u32) {
         self.home = View { aim: self.aim, test: self.test };
-        self.turn(view);
+        views.put(i, &mut self.aim, &mut self.test);
         self.query.enter_instance(instance + 1);
     }
 
     /// Goes back to the world.
     pub(super) fn leave(&mut self) {
-        let home = self.home;
-        self.turn(&home);
+        (self.aim, self.test) = (self.home.aim, self.home.test);
         self.query.enter_instance(0);
     }
 
     /// Where the ray enters the children of a node, and which of them it meets.
     #[inline(always)]
     pub(super) fn children(&self, node: &Node8) -> (f32x8, u32) {
-        let plane = |i: usize| unchecked::planes(node, self.aim.planes[i]);
-        let near = Vec3 { x: plane(0), y: plane(1), z: plane(2) };
-        let far = Vec3 { x: plane(3), y: plane(4), z: plane(5) };
+        let backward = self.aim.side.backward();
+        let [x, y, z] = three(|k| unchecked::planes(node, k, backward[k]));
+        let [near, far] = [0, 1].map(|i| Vec3 { x: x[i], y: y[i], z: z[i] });
         let (t_min, t_max) = (f32x8::splat(self.t_min), f32x8::splat(self.limit));
         let (enter, leave) = CullRay::<f32x8>::splat(&self.aim.cull).interval(near, far, t_min, t_max);
         (enter, Lane::le(enter, leave).bits())
@@ -118,28 +120,19 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
     /// Octant of the direction.
     #[inline(always)]
     pub(super) fn octant(&self) -> u32 {
-        self.aim.octant.into()
+        self.aim.side.octant()
     }
 
-    /// Triangles of the leaf that is next that the ray may hit, as bits; none for a leaf of anything else.
+    /// Triangles of the leaf that is next that the ray may hit, as bits. **Needs:** a leaf of triangles.
     #[inline(always)]
     pub(super) fn candidates(&self, accel: &Accel) -> u32 {
-        if !self.is_at_triangles() {
-            return 0;
-        }
         let corners = unchecked::triangles(accel, self.next).corner_columns();
-        T::Triangle::candidates::<T::Wide>(&self.test.ray, &self.test.triangle, corners)
+        T::Triangle::candidates::<T::Wide>(&self.ray(), &self.test.triangle, corners)
     }
 
-    #[inline(always)]
-    pub(super) fn is_at_triangles(&self) -> bool {
-        self.next.kind() == PrimKind::Triangle as u8
-    }
-
-    /// Tests all of a leaf of anything but triangles.
-    pub(super) fn test_block(&mut self, accel: &Accel) {
-        let next = self.next;
-        self.accepted = with_block(accel, next, self);
+    /// Tests all of a leaf of anything but triangles; true if a hit was accepted.
+    pub(super) fn test_block(&mut self, accel: &Accel) -> bool {
+        with_block(accel, self.next, self)
     }
 }
 
@@ -147,7 +140,8 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
 impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
     #[inline(never)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let ray = RayLanes::splat(&self.test.ray);
+        let one = RayLanes::of_columns(self.test.ray);
+        let ray = RayLanes::splat(&one);
         let rays = TestRays { triangle: &T::Triangle::prepare(&ray), ray: &ray };
         let limit = T::Wide::splat(self.query.limit());
         let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays);
@@ -159,8 +153,8 @@ impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
         while left != 0 {
             let i = left.trailing_zeros() as usize;
             left &= left - 1;
-            let one = LaneHit { mask: true, t: hit.t.get(i), u: hit.u.get(i), v: hit.v.get(i) };
-            accepted |= self.query.accept(&self.test.ray, &one, block.ids()[i]);
+            let found = LaneHit { mask: true, t: hit.t.get(i), u: hit.u.get(i), v: hit.v.get(i) };
+            accepted |= self.query.accept(&one, &found, block.ids()[i]);
         }
         accepted
     }

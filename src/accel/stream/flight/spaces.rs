@@ -3,7 +3,7 @@
 use wide::{f32x8, u32x8};
 
 use super::view::Views;
-use super::{Flight, LEAVE};
+use super::{Flight, LEAVE, SlotSet};
 use crate::accel::Accel;
 use crate::accel::leaf::cull_rays_by;
 use crate::accel::node::ChildRef;
@@ -14,22 +14,20 @@ use crate::math::{Lane, WIDTH, eight};
 impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
     /// Takes the rays that are at instances into their spaces.
     #[inline(never)]
-    pub(super) fn enter_instances(&mut self, accel: &Accel) {
-        let count = self.at_instances.len();
-        for first in (0..count).step_by(WIDTH) {
-            let at = eight(|i| self.at_instances.get((first + i).min(count - 1)));
+    pub(super) fn enter_instances(&mut self, accel: &Accel, mut at_instances: SlotSet) {
+        while !at_instances.is_empty() {
+            let (at, count) = at_instances.take_eight();
             let placed = eight(|i| accel.placed(self.slots[at[i]].next));
-            let rays = RayLanes::<T::Wide>::gather(|i| self.slots[at[i]].ray());
+            let rays = RayLanes::<T::Wide>::of_rows(eight(|i| self.slots[at[i]].row_of_ray()));
             let local = Accel::local_to_each(&placed, &rays);
             // Groups hold no instances, so nothing beyond their own size counts, wherever rays start.
             let scale = f32x8::from_fn(|i| placed[i].tree.scale);
             let views = Views::<T>::new(local, cull_rays_by::<T>(&local, |_| scale));
-            for i in 0..WIDTH.min(count - first) {
-                self.slots[at[i]].enter(&views.get(i), placed[i].row);
+            for i in 0..count {
+                self.slots[at[i]].enter(&views, i, placed[i].row);
                 self.push_root(at[i], placed[i].tree.node);
             }
         }
-        self.at_instances.clear();
     }
 
     /// Puts the root of a group on the stack of a ray, on top of the note that brings it back out.

@@ -2,26 +2,43 @@
 
 use wide::f32x8;
 
-use crate::accel::leaf::ForTriangles;
 use crate::accel::node::Node8;
-use crate::intersect::aabb::CullRay;
+use crate::intersect::aabb::{CullRay, OneCullRay};
 use crate::intersect::{RayLanes, Tier, TriangleTest};
-use crate::math::Mask;
+use crate::math::{Mask, WIDTH, Wide, eight};
 
 /// What the boxes of a tree need to know of a ray.
 #[derive(Clone, Copy)]
-#[repr(C)]
 pub(super) struct Aim {
-    pub(super) cull: CullRay<f32>,
-    /// The planes that the ray meets first and last, see [`Node8::PLANES`].
-    pub(super) planes: [u8; 6],
-    pub(super) octant: u8,
+    pub(super) cull: OneCullRay,
+    pub(super) side: Side,
+}
+
+/// Which way a ray goes, in one word: by axis a byte that is 0 where it goes along it, else [`Node8::ACROSS`]; last the octant.
+#[derive(Clone, Copy)]
+pub(super) struct Side(u32);
+
+impl Side {
+    #[inline(always)]
+    fn new([x, y, z]: [u32; 3]) -> Self {
+        let across = u32::from(Node8::ACROSS);
+        Self((x | y << 8 | z << 16) * across | (x | y << 1 | z << 2) << 24)
+    }
+    #[inline(always)]
+    pub(super) fn backward(self) -> [u8; 3] {
+        [self.0 as u8, (self.0 >> 8) as u8, (self.0 >> 16) as u8]
+    }
+    #[inline(always)]
+    pub(super) fn octant(self) -> u32 {
+        self.0 >> 24
+    }
 }
 
 /// What the primitives of a tree need to know of a ray.
 #[derive(Clone, Copy)]
 pub(super) struct TestRay<T: Tier> {
-    pub(super) ray: RayLanes<T::Real>,
+    /// As a row of [`RayLanes::of_rows`].
+    pub(super) ray: [T::Real; WIDTH],
     pub(super) triangle: <T::Triangle as TriangleTest>::OneRay<T::Real>,
 }
 
@@ -34,9 +51,9 @@ pub(super) struct View<T: Tier> {
 
 /// Eight rays, each in a space of its own or all in one.
 pub(super) struct Views<T: Tier> {
-    rays: RayLanes<T::Wide>,
-    triangle: ForTriangles<T>,
-    cull: CullRay<f32x8>,
+    rays: [[T::Real; WIDTH]; WIDTH],
+    triangle: [<T::Triangle as TriangleTest>::OneRay<T::Real>; WIDTH],
+    cull: [OneCullRay; WIDTH],
     /// By axis, lanes that go against it.
     backward: [u32; 3],
 }
@@ -45,20 +62,32 @@ impl<T: Tier> Views<T> {
     /// Rays, and the same for boxes.
     #[inline(always)]
     pub(super) fn new(rays: RayLanes<T::Wide>, cull: CullRay<f32x8>) -> Self {
-        Self { triangle: T::Triangle::prepare(&rays), rays, backward: cull.backward().map(Mask::bits), cull }
+        let rows = rays.to_rows();
+        Self {
+            triangle: T::Triangle::each_of(&rays, &T::Triangle::prepare(&rays)),
+            rays: eight(|i| rows[i].to_lanes()),
+            cull: cull.each(),
+            backward: cull.backward().map(Mask::bits),
+        }
     }
 
     /// Ray `i`.
     #[inline(always)]
     pub(super) fn get(&self, i: usize) -> View<T> {
-        let [x, y, z] = self.backward.map(|lanes| lanes >> i & 1);
-        let octant = x | y << 1 | z << 2;
-        let ray = self.rays.get(i);
-        let triangle = T::Triangle::one_of(&ray, &self.triangle, i);
-        let planes = Node8::PLANES[octant as usize];
+        let side = Side::new(self.backward.map(|lanes| lanes >> i & 1));
         View {
-            aim: Aim { cull: self.cull.get(i), planes, octant: octant as u8 },
-            test: TestRay { ray, triangle },
+            aim: Aim { cull: self.cull[i], side },
+            test: TestRay { ray: self.rays[i], triangle: self.triangle[i] },
         }
+    }
+
+    /// [`Views::get`] to where it is kept, piece by piece: put together first and copied in wider pieces, it would wait for
+    /// the stores to be done.
+    #[inline(always)]
+    pub(super) fn put(&self, i: usize, aim: &mut Aim, test: &mut TestRay<T>) {
+        aim.cull = self.cull[i];
+        aim.side = Side::new(self.backward.map(|lanes| lanes >> i & 1));
+        test.ray = self.rays[i];
+        test.triangle = self.triangle[i];
     }
 }
