@@ -1,11 +1,19 @@
-//! The verification of octray, run on two intersectors as tutorials have them. Both fail where they are known to.
+//! The verification of octray, run on two intersectors as tutorials have them. Both fail where they are known to. Then its
+//! bench times one of them on the same rays.
 //!
 //! ```sh
 //! cargo run --release --example verify_naive
 //! ```
 
-use octray::Ray;
-use octray::measure::verify::{Bounds, Effort, Family, FamilyReport, Intersector, Shape, verify_intersector};
+use std::error::Error;
+
+use octray::describe::builtin;
+use octray::measure::bench::{Class, Options, Subject, View, bench_scene, box_tests_a_second};
+use octray::measure::verify::{
+    Bounds, Effort, Family, FamilyReport, Intersector, Shape, peer_scene, verify_intersector,
+};
+use octray::scene::Scene;
+use octray::{Ray, TierName};
 
 type Point = [f32; 3];
 
@@ -104,7 +112,33 @@ fn expect(report: &FamilyReport, fault: &str) -> Result<(), String> {
     if is_found { Ok(()) } else { Err(format!("{} has no {fault} in {}", report.tier, report.family)) }
 }
 
-fn main() -> Result<(), String> {
+/// Times the triangles on a small terrain beside octray, and compares what they say.
+fn bench() -> Result<(), Box<dyn Error>> {
+    let terrain = builtin("terrain:1000")?.ok_or("no such scene")?;
+    let subject = Subject::new("terrain".into(), Scene::compile(&terrain)?, View::Outside).ok_or("empty")?;
+    let peer = peer_scene("naive Moeller-Trumbore", NaiveTriangles, &subject).ok_or("not only triangles")?;
+    let options = Options {
+        classes: vec![Class::Primary, Class::Shadow, Class::Random],
+        tier: TierName::Watertight,
+        size: [64, 64],
+        runs: 3,
+        peak_box_tests_s: box_tests_a_second(),
+    };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(1).build()?;
+    let report = bench_scene(&subject, &[peer], &options, &pool, &|_| ())?;
+    for class in &report.classes {
+        for engine in &class.engines {
+            let (rate, differ) = (engine.mrays_s.median, engine.differs.hits);
+            println!(
+                "{}, {}: {rate:.3} million rays a second, {differ} of {} answered differently",
+                engine.engine, class.class, class.rays
+            );
+        }
+    }
+    Ok(())
+}
+
+fn main() -> Result<(), Box<dyn Error>> {
     let triangles = |family| verify("naive Moeller-Trumbore", &NaiveTriangles, family);
     expect(&triangles("closed-inside")?, "leak")?;
     expect(&triangles("closed-outside")?, "leak")?;
@@ -113,5 +147,6 @@ fn main() -> Result<(), String> {
     triangles("slivers")?;
     let slabs = |family| verify("naive slabs", &NaiveSlabs, family);
     expect(&slabs("boxes")?, "false miss")?;
-    expect(&slabs("box-planes")?, "false miss")
+    expect(&slabs("box-planes")?, "false miss")?;
+    bench()
 }

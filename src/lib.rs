@@ -104,7 +104,8 @@
 //! - [`TierName::Exact`]: `f64` rays and tests on the same `f32` scene; what is met is decided without rounding.
 //!   For references and for scenes whose parts differ in size by many orders of magnitude.
 //!
-//! [`measure::verify`] holds them to this, and other intersectors too.
+//! [`measure::verify`] holds them to this, and other intersectors too. What was measured of each, within which scales that is
+//! promised, and what happens beyond: [Which tier?](readme/index.html#which-tier).
 //!
 //! A [`Hint`] says how rays lie to each other. It changes time, never results.
 
@@ -130,7 +131,8 @@ pub mod wavefront;
 pub use accel::{Hint, Primitive, RayScene, RaySceneBuilder, RaySceneError};
 pub use intersect::{Hit, PrimId, Ray, TierName};
 
-/// The README's example compiles and holds.
-#[cfg(doctest)]
+/// The README as a page of the documentation, where its example compiles and holds.
+///
+#[cfg(any(doc, doctest))]
 #[doc = include_str!("../README.md")]
-struct Readme;
+pub mod readme {}

@@ -7,7 +7,7 @@ mod exact_tier;
 use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use libfuzzer_sys::fuzz_target;
 use octray::intersect::aabb::{self, CullRay, OwnBox};
-use octray::intersect::triangle::{ExactVolumes, MollerTrumbore, Woop};
+use octray::intersect::triangle::{ExactVolumes, FilteredVolumes, MollerTrumbore, Woop};
 use octray::intersect::{Curved, Exact, Fast, LaneHit, RayLanes, Tier, TriangleTest, Watertight};
 use octray::intersect::{cylinder, sphere, triangle};
 use octray::math::{Lane, Mask, Real, Vec3};
@@ -53,7 +53,7 @@ fn a_cylinder<L: Lane>(p: [Vec3<L>; 3]) -> cylinder::Lanes<L> {
 }
 
 /// What every kernel says, as masks and numbers.
-fn run<L: Lane, C: Curved>(cases: &[[f32; 17]]) -> [LaneHit<L>; 7] {
+fn run<L: Lane, C: Curved>(cases: &[[f32; 17]]) -> [LaneHit<L>; 8] {
     let (ray, p) = ray_and_points::<L>(cases);
     let pair = |(t, u)| LaneHit { mask: L::Mask::splat(true), t, u, v: L::zero() };
     let (lo, hi) = (p[0].min(p[1]), p[0].max(p[1]));
@@ -61,6 +61,7 @@ fn run<L: Lane, C: Curved>(cases: &[[f32; 17]]) -> [LaneHit<L>; 7] {
     [
         Woop::test(&ray, &Woop::prepare(&ray), p, ray.t_max),
         MollerTrumbore::test(&ray, &(), p, ray.t_max),
+        FilteredVolumes::test(&ray, &FilteredVolumes::prepare(&ray), p, ray.t_max),
         ExactVolumes::test(&ray, &ExactVolumes::prepare(&ray), p, ray.t_max),
         C::sphere(&ray, &a_sphere(p)),
         C::cylinder(&ray, &a_cylinder(p)),

@@ -23,7 +23,8 @@ use crate::math::{Lane, Mask, Real, Vec3, WIDTH, Wide, fused_cross, fused_dot, t
 #[derive(Clone, Copy, Debug, Default)]
 pub struct FilteredVolumes;
 
-/// Of the largest volume, what another may have and be small: more than rounding makes of it up to a thousand edges away.
+/// Of the largest volume, what another may have and be small: more than rounding makes of it up to a thousand times as far away
+/// as the triangle is high, as the ray sees it.
 const SMALL: f64 = 1.0 / 1024.0;
 
 /// Least share, squared, that the determinant has of the product of direction and edges for `f32` to have digits enough.
@@ -157,4 +158,77 @@ fn solve<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> LaneHit<L> {
     let t = (fused_dot(e2, q) * scale).clamp(a.min(b).min(c), a.max(b).max(c));
     let mask = same_side & det.abs().gt(size * L::constant(NOISE));
     LaneHit { mask, t, u: at_1 * scale, v: at_2 * scale }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::intersect::testing::dice::Dice;
+    use crate::intersect::testing::{exact, line, ray};
+
+    type Case = (RayLanes<f32>, [Vec3<f32>; 3]);
+
+    fn meet(r: &RayLanes<f32>, v: [Vec3<f32>; 3]) -> LaneHit<f32> {
+        FilteredVolumes::test(r, &FilteredVolumes::prepare(r), v, f32::INFINITY)
+    }
+
+    /// A triangle, and a ray from up to a thousand times as far away as that is high, as the ray sees it, aimed beside an edge.
+    fn beside_an_edge(dice: &mut Dice) -> Case {
+        let corners: [[f64; 3]; 3] = std::array::from_fn(|_| dice.point());
+        let (heading, edge) = (dice.heading(), dice.below(3));
+        let [a, b, c] = three(|k| Vec3::<f64>::splat(corners[(edge + k) % 3]));
+        let longest = (b - a).length().max((c - b).length()).max((a - c).length());
+        let height = (b - a).cross(c - a).dot(Vec3::splat(heading)).abs() / longest;
+        let away = height * 10f64.powf(dice.between(0.0, 3.0));
+        let on_edge = a + (b - a) * dice.unit();
+        let target = (on_edge + (c - on_edge) * dice.magnitude(-7.0, -2.0)).get(0);
+        let origin = std::array::from_fn(|k| (target[k] + away * heading[k]) as f32);
+        let direction = std::array::from_fn(|k| (target[k] - f64::from(origin[k])) as f32);
+        (ray(origin, direction), corners.map(|p| Vec3::splat(p.map(|x| x as f32))))
+    }
+
+    /// What `f32` decides alone is what `f64` says: `SMALL` leaves it only what rounding cannot have changed.
+    #[test]
+    fn f32_decides_as_f64_does_up_to_a_thousand_heights_away() {
+        let mut dice = Dice(91);
+        let (mut hits, mut misses) = (0, 0);
+        for _ in 0..200_000 {
+            let (r, v) = beside_an_edge(&mut dice);
+            let (hit, wide) = (meet(&r, v), solve(&r.widen(), v.map(Vec3::widen)));
+            assert_eq!(hit.mask, wide.mask, "f32 is trusted where it has no digits (SMALL): {r:?} {v:?}");
+            hits += usize::from(hit.mask);
+            misses += usize::from(!hit.mask);
+        }
+        assert!(hits > 10_000 && misses > 10_000, "{hits} {misses}");
+    }
+
+    /// In the plane of a triangle exactly, on a lattice so fine that volumes round: corners are sums of edges.
+    fn in_plane(dice: &mut Dice) -> Case {
+        let mut number = |bits: u32| (dice.word() >> (64 - bits)) as i64 - (1 << (bits - 1));
+        let e: [[i64; 3]; 2] = std::array::from_fn(|_| std::array::from_fn(|_| number(19)));
+        let corner: [i64; 3] = std::array::from_fn(|_| number(22));
+        let [i, j, k, l] = std::array::from_fn(|_| number(4));
+        let at = |a: i64, b: i64| std::array::from_fn(|x| (a * e[0][x] + b * e[1][x]) as f32);
+        let from = |a: i64, b: i64| std::array::from_fn(|x| (corner[x] + a * e[0][x] + b * e[1][x]) as f32);
+        let direction = if (k, l) == (0, 0) { at(1, 0) } else { at(k, l) };
+        (line(from(i, j), direction), [from(0, 0), from(1, 0), from(0, 1)].map(Vec3::splat))
+    }
+
+    /// A ray that lies in the plane hits nothing, whatever signs rounding gives to volumes that are zero.
+    #[test]
+    fn volumes_that_rounding_made_are_no_hit() {
+        let mut dice = Dice(92);
+        let mut noisy = 0;
+        for _ in 0..400_000 {
+            let (r, v) = in_plane(&mut dice);
+            let exact = exact::triangle(&r, v);
+            assert_eq!(exact, None, "the ray lies in the plane: {r:?} {v:?}");
+            let (wide, corners) = (r.widen(), v.map(Vec3::widen));
+            let volume =
+                fused_dot(wide.direction, fused_cross(corners[1] - wide.origin, corners[2] - wide.origin));
+            noisy += usize::from(volume != 0.0);
+            assert!(!meet(&r, v).mask, "a hit made of rounding alone (NOISE): {r:?} {v:?}");
+        }
+        assert!(noisy > 100_000, "{noisy}");
+    }
 }

@@ -45,7 +45,8 @@
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
 //!
-//! With the feature `testkit`, `strategies` gives the families to property tests.
+//! [`peer_scene`] puts such an intersector beside octray in the bench; [`Family::trials`] gives the families as plain iterators,
+//! and, with the feature `testkit`, `strategies` gives them to property tests.
 
 mod bounds;
 mod families;
@@ -57,16 +58,18 @@ mod tally;
 mod testkit;
 #[cfg(test)]
 mod tests;
+mod timed;
 mod trial;
 mod truth;
 
 pub use bounds::{Bounds, Promise};
 pub use families::Family;
 pub use report::{FamilyReport, Rate, Report, Ulps};
-pub use run::{Effort, verify_family};
+pub use run::{Effort, verify_family, verify_trial};
 pub use table::table;
-#[cfg(feature = "testkit")]
+#[cfg(any(test, feature = "testkit"))]
 pub use testkit::strategies;
 pub use testkit::{Intersector, verify_intersector};
+pub use timed::peer_scene;
 pub use trial::{Claim, Shape, Trial};
 pub use truth::EXCUSED_ROUNDOFFS;

@@ -44,6 +44,13 @@ pub fn verify_family(family: &Family, tiers: &[TierName], effort: Effort) -> Vec
     tiers.iter().zip(tallies).map(report).collect()
 }
 
+/// Verifies octray in a tier over rays of one's own. **Needs:** finite numbers, directions that are not zero, and triangles
+/// with an area.
+pub fn verify_trial(trial: &Trial, tier: TierName, bounds: &Bounds) -> FamilyReport {
+    let tally = judge(trial, &[&*subject(tier)]).pop().unwrap_or_default();
+    FamilyReport::new("trial", tier.name(), tally, bounds)
+}
+
 /// Verifies one intersector, of which nothing is promised, over a family; nothing if it knows none of the shapes.
 pub(super) fn verify_subject(
     family: &Family,

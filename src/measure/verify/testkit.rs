@@ -50,7 +50,7 @@ pub fn verify_intersector(
 }
 
 /// Families for property tests (feature `testkit`).
-#[cfg(feature = "testkit")]
+#[cfg(any(test, feature = "testkit"))]
 pub mod strategies {
     use proptest::prelude::*;
 

@@ -5,13 +5,13 @@ use super::{Family, Make};
 use crate::intersect::Ray;
 use crate::intersect::testing::dice::Dice;
 use crate::measure::verify::bounds::Promise;
-use crate::measure::verify::trial::{Shape, Trial};
+use crate::measure::verify::trial::{Claim, Shape, Trial};
 
 pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "cylinders",
         about: "cylinders of radius 1e-6 to 1e6, from coins to rods, any axis",
-        promise: Promise::Cylinders,
+        promise: Promise::Ordinary,
         make: Make::Rays(plain),
     },
     Family {
@@ -19,6 +19,12 @@ pub(super) const FAMILIES: &[Family] = &[
         about: "within 1e-6 of the rims of cylinders",
         promise: Promise::Grazing,
         make: Make::Rays(rims),
+    },
+    Family {
+        name: "rims-inside",
+        about: "from inside closed cylinders at their rims: what gets out found a gap between side and cap",
+        promise: Promise::Rims,
+        make: Make::Rays(rims_from_inside),
     },
     Family {
         name: "wires",
@@ -100,6 +106,17 @@ fn rims(dice: &mut Dice) -> Trial {
         let target = rod.point(dice, height, out);
         rod.towards(dice, target, 2.0 * rod.reach)
     })
+}
+
+fn rims_from_inside(dice: &mut Dice) -> Trial {
+    let rod = any_rod(dice);
+    let trial = trial(vec![rod.shape()], |_| {
+        let (end, out) = (dice.below(2) as f64, 1.0 + [0.0, dice.between(-1e-6, 1e-6)][dice.below(2)]);
+        let (height, aside) = (dice.between(0.2, 0.8), 0.7 * dice.unit());
+        let (origin, target) = (rod.point(dice, height, aside), rod.point(dice, end, out));
+        of_length_one(towards(origin, target))
+    });
+    Trial { claim: Claim::Inside, ..trial }
 }
 
 /// From nearby, so that rounding leaves something to aim at.

@@ -5,7 +5,7 @@ use super::{Family, Make};
 use crate::accel::stream::{Apex, HitColumns, RayStream};
 use crate::accel::{Accel, Hint};
 use crate::intersect::testing::dice::Dice;
-use crate::intersect::testing::meshes::{cube, icosphere};
+use crate::intersect::testing::meshes::{Mesh, cube, icosphere};
 use crate::intersect::{Exact, Fast, Ray, Tier, Watertight};
 use crate::math::{Lane, Real, WIDTH};
 use crate::measure::verify::bounds::Promise;
@@ -17,20 +17,23 @@ pub(super) const FAMILIES: &[Family] = &[Family {
     name: "leaks",
     about: "from inside closed meshes of up to 1280 triangles at vertices, edges and faces, without an oracle: quick enough for 1e9",
     promise: Promise::Leaks,
-    make: Make::Walks(RAYS, [leaks::<Fast>, leaks::<Watertight>, leaks::<Exact>]),
+    make: Make::Walks(MESHES * RAYS, [leaks::<Fast>, leaks::<Watertight>, leaks::<Exact>]),
 }];
 
+/// Meshes of a walk: some lose more than others.
+const MESHES: usize = 4;
 /// Rays at a mesh.
-const RAYS: usize = 1 << 15;
+const RAYS: usize = 1 << 13;
 /// Rays in a stream at once.
 const STREAM: usize = 1 << 10;
 
 fn leaks<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
-    let mesh = match dice.below(4) {
-        0 => cube(),
-        levels => icosphere(levels),
-    };
-    let mesh = Placed::at_random(dice, &mesh);
+    let meshes: [Mesh; MESHES] = [cube(), icosphere(1), icosphere(2), icosphere(3)];
+    meshes.iter().for_each(|mesh| leave::<T>(dice, tally, mesh));
+}
+
+fn leave<T: Tier>(dice: &mut Dice, tally: &mut Tally, mesh: &Mesh) {
+    let mesh = Placed::at_random(dice, mesh);
     let common = (dice.below(2) == 0).then(|| mesh.point_inside(dice));
     let rays: Vec<Ray> = (0..RAYS).map(|_| mesh.ray_from_inside(dice, common)).collect();
     let trial = mesh.trial(Claim::Inside, rays);

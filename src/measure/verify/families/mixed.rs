@@ -18,31 +18,31 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "axis-parallel",
         about: "along axes and in planes of two, with zeros of either sign, at shapes on a grid",
-        promise: Promise::Mixed,
+        promise: Promise::Ordinary,
         make: Make::Rays(axis_parallel),
     },
     Family {
         name: "lengths",
         about: "directions of length 1e-20 to 1e20",
-        promise: Promise::Lengths,
+        promise: Promise::Curved,
         make: Make::Rays(lengths),
     },
     Family {
         name: "moderate-lengths",
         about: "directions of length 1e-6 to 1e6",
-        promise: Promise::Mixed,
+        promise: Promise::Ordinary,
         make: Make::Rays(moderate_lengths),
     },
     Family {
         name: "odd-lengths",
         about: "directions as short as the least f32 and as long as the largest: beyond the domain",
-        promise: Promise::None,
+        promise: Promise::Beyond,
         make: Make::Rays(odd_lengths),
     },
     Family {
         name: "t-max",
         about: "rays that end exactly at their hit, one number before or behind it",
-        promise: Promise::Mixed,
+        promise: Promise::Ordinary,
         make: Make::Rays(t_max),
     },
     Family {

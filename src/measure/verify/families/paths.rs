@@ -5,7 +5,7 @@ use super::{Family, Make, glass};
 use crate::accel::brute::{self, NearestHit};
 use crate::geometry::{Geometry, Group, Instance, NO_MATERIAL};
 use crate::intersect::testing::dice::Dice;
-use crate::intersect::{Exact, Fast, RayLanes, Tier, Watertight};
+use crate::intersect::{Exact, Fast, Ray, RayLanes, Tier, Watertight};
 use crate::math::{Lane, Real, Transform, Vec3, WIDTH};
 use crate::measure::verify::bounds::Promise;
 use crate::measure::verify::families::aim::{across, add, rounded, towards, triangle};
@@ -29,6 +29,12 @@ pub(super) const FAMILIES: &[Family] = &[
             PATHS,
             [leaving_instances::<Fast>, leaving_instances::<Watertight>, leaving_instances::<Exact>],
         ),
+    },
+    Family {
+        name: "thin-shells",
+        about: "from just computed hit points of one of two spheres 4e-6 apart to the other, which an offset may not jump over",
+        promise: Promise::Leaving,
+        make: Make::Walks(PATHS, [thin_shells::<Fast>, thin_shells::<Watertight>, thin_shells::<Exact>]),
     },
     Family {
         name: "glass-chain",
@@ -85,6 +91,11 @@ type Point<R> = Vec3<R>;
 /// A ray from a point without end.
 fn ray<R: Real>(origin: Point<R>, direction: Vec3<R>) -> RayLanes<R> {
     RayLanes { origin, direction, t_min: R::zero(), t_max: R::constant(f64::INFINITY) }
+}
+
+/// A given ray, without end.
+fn given<R: Real>(r: &Ray) -> RayLanes<R> {
+    ray(vector(r.origin.map(f64::from)), vector(r.direction.map(f64::from)))
 }
 
 pub(super) fn vector<R: Real>(v: [f64; 3]) -> Vec3<R> {
@@ -146,6 +157,41 @@ fn leaving_instances<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
     leave::<T>(dice, tally, &g, &Shown { center, size, to_world });
 }
 
+/// Radii of two spheres around one centre.
+const SHELLS: [f32; 2] = [1.0, 1.0 + 4e-6];
+
+/// Inside out from the inner shell, or outside in from the outer one, but not so flat that it could pass the inner one.
+fn thin_shells<T: Tier>(dice: &mut Dice, tally: &mut Tally) {
+    let center = rounded(dice.point().map(|x| 0.5 * x));
+    let shapes = SHELLS.map(|radius| Shape::Sphere { center, radius }).to_vec();
+    let g = Trial { shapes, rays: Vec::new(), claim: Claim::Leaving }.geometry();
+    let center = center.map(f64::from);
+    for _ in 0..PATHS {
+        let from = dice.below(2);
+        let origin = match from {
+            0 => add(center, dice.point(), 0.3),
+            _ => add(center, dice.heading(), 2.0),
+        };
+        let first = given::<T::Real>(&towards(origin, add(center, dice.heading(), [1.0, 0.5][from])));
+        let Some(hit) = brute::closest::<T>(&g, &first).filter(|hit| hit.prim.row() == from) else {
+            continue;
+        };
+        let met = Surface::of::<T>(&g, &first, &hit);
+        let onwards = met.normal.get(0).map(Real::to_f64);
+        let onwards = if from == 0 { onwards } else { onwards.map(|x| -x) };
+        let flattest = [dice.magnitude(-7.0, -1.0).abs(), 0.1][from];
+        let steep = [dice.between(0.1, 2.0), flattest][dice.below(2)];
+        let next = met.leave(vector(add(across(dice, onwards), onwards, steep)));
+        tally.rays += 1;
+        match brute::closest::<T>(&g, &next) {
+            Some(next) if next.prim.row() != from => tally.hits += 1,
+            found => {
+                tally.add(Fault::SelfHit, || format!("{next:?} leaves shell {from} and comes to {found:?}"))
+            }
+        }
+    }
+}
+
 /// What is aimed at, and how it is placed in the world.
 struct Shown {
     center: [f64; 3],
@@ -159,9 +205,7 @@ fn leave<T: Tier>(dice: &mut Dice, tally: &mut Tally, g: &Geometry, shown: &Show
         let reach = [0.5 * size, 1e-3 * size][dice.below(2)];
         let target = to_world.point(add(center, dice.point(), reach));
         let origin = to_world.point(add(center, dice.heading(), 12.0 * size));
-        let first = RayLanes::from(&towards(origin, target));
-        let first =
-            ray::<T::Real>(vector(first.origin.widen().get(0)), vector(first.direction.widen().get(0)));
+        let first = given::<T::Real>(&towards(origin, target));
         let Some(hit) = brute::closest::<T>(g, &first) else { continue };
         let met = Surface::of::<T>(g, &first, &hit);
         let normal = met.normal.get(0).map(Real::to_f64);

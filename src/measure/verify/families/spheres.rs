@@ -10,13 +10,13 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "spheres",
         about: "spheres of radius 1e-30 to 1e30 from inside, near and 1e4 radii away",
-        promise: Promise::Spheres,
+        promise: Promise::Curved,
         make: Make::Rays(plain),
     },
     Family {
         name: "moderate-spheres",
         about: "the same with radii of 1e-6 to 1e6",
-        promise: Promise::ModerateSpheres,
+        promise: Promise::Ordinary,
         make: Make::Rays(moderate),
     },
     Family {

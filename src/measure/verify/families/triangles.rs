@@ -31,7 +31,7 @@ pub(super) const FAMILIES: &[Family] = &[
     Family {
         name: "any-magnitude",
         about: "triangles whose coordinates are 1e-30 to 1e18, all mixed: beyond the domain of f32",
-        promise: Promise::None,
+        promise: Promise::Beyond,
         make: Make::Rays(any_magnitude),
     },
     Family {
