@@ -39,8 +39,14 @@ impl<T: Tier> Pending<T> {
     ) -> bool {
         let Some(seen) = block.glimpse::<T, RaysByPrimitive>(i, rays) else {
             self.settle(rays, query);
-            let needed = block.needed::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
-            return needed.any() && block.ask::<T, RaysByPrimitive, Q>(i, needed, rays, query);
+            let mut needed = block.needed::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
+            let mut accepted = false;
+            if Q::ANY {
+                let sure = block.surely::<T, RaysByPrimitive>(i, needed, rays, query.limit());
+                query.take(sure, T::Wide::zero(), BitLane::splat(block.ids()[i]));
+                (accepted, needed) = (sure.any(), needed & !sure);
+            }
+            return needed.any() && block.ask::<T, RaysByPrimitive, Q>(i, needed, rays, query) || accepted;
         };
         let (certain, unclear) = self.sort(lanes & seen.inside, &seen, rays.ray.t_min, query.limit());
         let mut accepted = certain.any();

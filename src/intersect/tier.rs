@@ -82,6 +82,11 @@ pub trait Curved: Copy + Send + Sync + 'static {
     fn sphere_within<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
         lanes
     }
+    /// Of those lanes, the ones that certainly hit before `limit`, if it costs little beside meeting them to tell.
+    #[inline(always)]
+    fn sphere_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
+        L::Mask::splat(false)
+    }
     /// Lanes whose rays may hit their cylinders, as far as is cheap to tell.
     fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> L::Mask;
     /// As [`Curved::sphere_within`].
@@ -93,6 +98,11 @@ pub trait Curved: Copy + Send + Sync + 'static {
         _limit: L,
     ) -> L::Mask {
         lanes
+    }
+    /// As [`Curved::sphere_surely`].
+    #[inline(always)]
+    fn cylinder_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>, _limit: L) -> L::Mask {
+        L::Mask::splat(false)
     }
     /// Meets those lanes with their cylinders.
     fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
@@ -146,6 +156,10 @@ impl Curved for Filtered {
     #[inline(always)]
     fn sphere_within<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
         if doubt::is_exact::<L>() { lanes & !sphere::is_beyond(ray, s, limit) } else { lanes }
+    }
+    #[inline(always)]
+    fn sphere_surely<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
+        lanes & sphere::surely_hits(ray, s, limit)
     }
     #[inline(always)]
     fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
