@@ -48,8 +48,11 @@ impl<T: Tier> Pending<T> {
             }
             return needed.any() && block.ask::<T, RaysByPrimitive, Q>(i, needed, rays, query) || accepted;
         };
-        let (certain, unclear) = self.sort(lanes & seen.inside, &seen, rays.ray.t_min, query.limit());
+        let (certain, mut unclear) = self.sort(lanes & seen.inside, &seen, rays.ray.t_min, query.limit());
         let mut accepted = certain.any();
+        if let Some(corners) = block.corners_of_triangles().filter(|_| unclear.any()) {
+            unclear = unclear & !T::Triangle::is_left(rays.ray, &seen, corners.map(|p| three(|k| p[k][i])));
+        }
         if unclear.any() {
             self.settle(rays, query);
             accepted |= block.ask::<T, RaysByPrimitive, Q>(i, unclear, rays, query);

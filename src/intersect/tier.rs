@@ -33,6 +33,12 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
     ) -> Option<Glimpse<L>> {
         None
     }
+    /// Lanes whose rays have a triangle behind them for certain, as they have that which they left: one that a glimpse told
+    /// too little of. [`TriangleTest::hit`] finds it at zero or before.
+    #[inline(always)]
+    fn is_left<L: Lane>(_: &RayLanes<L>, _seen: &Glimpse<L>, _triangle: [[f32; 3]; 3]) -> L::Mask {
+        L::Mask::splat(false)
+    }
     /// Where rays meet triangles that a glimpse told them to hit: as [`TriangleTest::hit`] finds it.
     #[inline(always)]
     fn settle<L: Lane>(_: &RayLanes<L>, _vertices: [Vec3<L>; 3]) -> LaneHit<L> {

@@ -74,9 +74,14 @@ impl<L: Lane> Met<L> {
                 other |= 1 << i;
             }
         }
-        // Copies, so that what is hardly ever settled need not stand in memory.
-        let (met, hit) = (self, *hit);
-        if unseen | other != 0 { met.reordered(scene, &hit, media, [unseen, other]) } else { met }
+        if unseen | other == 0 {
+            return self;
+        }
+        // Copied and taken apart, so that what is hardly ever done keeps nothing in memory.
+        let hit = *hit;
+        let Self { surface, materials, scatter, inside, bodies } =
+            self.reordered(scene, &hit, media, [unseen, other]);
+        Self { surface, materials, scatter, inside, bodies }
     }
 
     /// With what was never entered entered, and left what is left before.

@@ -21,28 +21,12 @@ use crate::math::{Aabb, Lane, Vec3, three};
 /// Cramer's rule on `o + t d = v0 + u e1 + v e2` with the triple products shared.
 ///
 /// **Source:** Moeller and Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997.
-#[derive(Clone, Copy)]
-struct PlanePoint<L> {
-    /// What the others are to be divided by.
-    det: L,
-    t: L,
-    u: L,
-    v: L,
-}
-
-impl<L: Lane> PlanePoint<L> {
-    #[inline(always)]
-    fn new(origin: Vec3<L>, direction: Vec3<L>, [v0, v1, v2]: [Vec3<L>; 3]) -> Self {
-        let (e1, e2, s) = (v1 - v0, v2 - v0, origin - v0);
-        let (p, q) = (direction.cross(e2), s.cross(e1));
-        Self { det: e1.dot(p), t: e2.dot(q), u: s.dot(p), v: direction.dot(q) }
-    }
-
-    #[inline(always)]
-    fn coordinates(&self) -> (L, L, L) {
-        let scale = L::one() / self.det;
-        (self.t * scale, self.u * scale, self.v * scale)
-    }
+#[inline(always)]
+fn plane_coordinates<L: Lane>(origin: Vec3<L>, direction: Vec3<L>, [v0, v1, v2]: [Vec3<L>; 3]) -> (L, L, L) {
+    let (e1, e2, s) = (v1 - v0, v2 - v0, origin - v0);
+    let (p, q) = (direction.cross(e2), s.cross(e1));
+    let scale = L::one() / e1.dot(p);
+    (e2.dot(q) * scale, s.dot(p) * scale, direction.dot(q) * scale)
 }
 
 /// The box of a triangle, exact.

@@ -11,7 +11,7 @@
 //!   short rays; `t` is confined to the own box;
 //! - the point so found must be one of the triangle within rounding, else [`near`] finds the one that is.
 
-use super::{Glimpse, PlanePoint, near};
+use super::{Glimpse, near, plane_coordinates};
 use crate::intersect::aabb::OwnBox;
 use crate::intersect::{LaneHit, RayLanes, TriangleTest};
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, three};
@@ -19,6 +19,10 @@ use crate::math::{Lane, Mask, Real, Vec3, WIDTH, three};
 /// See the module.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Woop;
+
+/// How high above its plane a ray has to start for the triangle to be behind it for certain, beside the farthest corner and
+/// the normal: thousands of roundoffs of `f64`.
+const LEAST_HEIGHT: f64 = 1e-11;
 
 /// The shear that maps a ray to an axis, and the ray's slabs.
 #[derive(Clone, Copy, Debug)]
@@ -116,7 +120,7 @@ impl TriangleTest for Woop {
         v: [Vec3<L>; 3],
         limit: L,
     ) -> LaneHit<L> {
-        within_own_box::<L, true>(lanes, ray, &shear.own, v, limit)
+        within_own_box(lanes, ray, &shear.own, v, limit)
     }
 
     const GLIMPSES: bool = true;
@@ -128,9 +132,25 @@ impl TriangleTest for Woop {
         Some(Glimpse::of([shear.sheared(a), shear.sheared(b), shear.sheared(c)], reach, shear.per_z))
     }
 
+    /// The height above the plane in `f64`, which a ray's start has little of, and on which side the ray goes on. A height that
+    /// rounding could make in what [`refine`] computes says nothing.
+    #[inline(always)]
+    fn is_left<L: Lane>(ray: &RayLanes<L>, seen: &Glimpse<L>, triangle: [[f32; 3]; 3]) -> L::Mask {
+        let [a, b, c] = triangle.map(|p| Vec3::<f64>::splat(p.map(f64::from)));
+        let normal = (b - a).cross(c - a);
+        let size = normal.x.abs() + normal.y.abs() + normal.z.abs();
+        let (zero, wide_zero) = (L::zero(), <L::Double as Lane>::zero());
+        let height = (ray.origin.widen() - Vec3::splat(a.get(0))).dot(Vec3::splat(normal.get(0)));
+        let least = seen.reach.widen() * <L::Double as Lane>::splat(size * LEAST_HEIGHT);
+        let rises = ray.direction.dot(Vec3::splat(normal.get(0).map(<L::Scalar as Real>::from_f64)));
+        let above = L::narrow_mask(height.gt(least)) & rises.gt(zero);
+        let below = L::narrow_mask(height.lt(wide_zero - least)) & rises.lt(zero);
+        (above | below) & seen.is_steep & ray.t_min.ge(zero)
+    }
+
     #[inline(always)]
     fn settle<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> LaneHit<L> {
-        let (t, u, v) = refine(ray, v, &plane_point(ray, v));
+        let (t, u, v) = refine(ray, v);
         LaneHit { mask: L::Mask::splat(true), t: t + L::zero(), u, v }
     }
 
@@ -159,7 +179,7 @@ impl TriangleTest for Woop {
     #[inline(always)]
     fn test_candidates<L: Lane>(ray: &RayLanes<L>, vertices: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
         let own = OwnBox::new(ray.origin, ray.direction);
-        within_own_box::<L, false>(L::Mask::splat(true), ray, &own, vertices, limit)
+        within_own_box(L::Mask::splat(true), ray, &own, vertices, limit)
     }
 }
 
@@ -192,10 +212,9 @@ impl<R: Real> OneShear<R> {
     }
 }
 
-/// Of the lanes that passed the edges, those that meet the triangle's own box, with where at the triangle. `TOGETHER`: they
-/// meet the same triangle, so that all of them may have left it.
+/// Of the lanes that passed the edges, those that meet the triangle's own box, with where at the triangle.
 #[inline(always)]
-fn within_own_box<L: Lane, const TOGETHER: bool>(
+fn within_own_box<L: Lane>(
     mask: L::Mask,
     ray: &RayLanes<L>,
     own: &OwnBox<L>,
@@ -208,12 +227,7 @@ fn within_own_box<L: Lane, const TOGETHER: bool>(
     if !mask.any() {
         return LaneHit::none();
     }
-    let met = plane_point(ray, v);
-    let mask = if TOGETHER { mask & !(is_behind(ray, v, &met) & first.le(ray.t_min)) } else { mask };
-    if TOGETHER && !mask.any() {
-        return LaneHit::none();
-    }
-    let (t, at_u, at_v) = refine(ray, v, &met);
+    let (t, at_u, at_v) = refine(ray, v);
     let mut hit = LaneHit { mask, t: t.clamp(first, last), u: at_u, v: at_v };
     let doubtful = mask & !near::at_glance(ray, v, &hit, own.magnitude(lo, hi));
     if doubtful.any() {
@@ -242,38 +256,12 @@ pub(super) fn same_side<L: Lane>([e0, e1, e2]: [L; 3]) -> L::Mask {
     same_side & (det.lt(zero) | det.gt(zero))
 }
 
-#[inline(always)]
-fn plane_point<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> PlanePoint<L::Double> {
-    PlanePoint::new(ray.origin.widen(), ray.direction.widen(), three(|k| v[k].widen()))
-}
-
-/// How large the determinant has to be, beside direction and edges, for the point to be known to a few roundoffs of `f32`.
-const STEEP: f64 = 1e-7;
-/// How far behind the point has to be, beside corners and origin, for rounding not to bring it before the ray.
-const BEHIND: f64 = 1e-12;
-
-/// Lanes whose triangle is behind them for certain, as the one is that a ray has just left: the point in the plane is one of
-/// the triangle and known well, so that [`refine`] and [`near`] leave its `t` as it is, less than zero.
-#[inline(always)]
-fn is_behind<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3], met: &PlanePoint<L::Double>) -> L::Mask {
-    let PlanePoint { det, t, u, v: w } = *met;
-    let zero = <L::Double as Lane>::zero();
-    let size = |v: Vec3<L>| v.abs().max_component().widen();
-    let (d, e1, e2) = (size(ray.direction), size(v[1] - v[0]), size(v[2] - v[0]));
-    let far = size(ray.origin - v[0]) + e1 + e2;
-    let constant = <L::Double as Lane>::constant;
-    let is_inside = (u * det).ge(zero) & (w * det).ge(zero) & ((det - u - w) * det).ge(zero);
-    let is_steep = det.abs().ge(d * e1 * e2 * constant(STEEP));
-    let is_back = (t * det).lt(zero) & (t.abs() * d).gt(det.abs() * far * constant(BEHIND));
-    L::narrow_mask(is_inside & is_steep & is_back) & ray.t_min.ge(L::zero())
-}
-
 /// `t, u, v` in `f64`. The plane of a triangle seen nearly edge-on is met anywhere along the ray, so `t` is confined to
 /// where the corners lie along it (NaN becomes the nearest), and what comes of it is held against the triangle.
 #[inline(always)]
-fn refine<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3], met: &PlanePoint<L::Double>) -> (L, L, L) {
+fn refine<L: Lane>(ray: &RayLanes<L>, v: [Vec3<L>; 3]) -> (L, L, L) {
     let (origin, direction, corners) = (ray.origin.widen(), ray.direction.widen(), three(|k| v[k].widen()));
-    let (t, u, v) = met.coordinates();
+    let (t, u, v) = plane_coordinates(origin, direction, corners);
     let scale = <L::Double as Lane>::one() / direction.length_squared();
     let [a, b, c] = three(|k| (corners[k] - origin).dot(direction) * scale);
     let t = t.clamp(a.min(b).min(c), a.max(b).max(c));
