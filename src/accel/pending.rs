@@ -51,7 +51,8 @@ impl<T: Tier> Pending<T> {
         let (certain, mut unclear) = self.sort(lanes & seen.inside, &seen, rays.ray.t_min, query.limit());
         let mut accepted = certain.any();
         if let Some(corners) = block.corners_of_triangles().filter(|_| unclear.any()) {
-            unclear = unclear & !T::Triangle::is_left(rays.ray, &seen, corners.map(|p| three(|k| p[k][i])));
+            unclear =
+                unclear & !T::Triangle::is_left(rays.ray, &seen, three(|v| three(|k| corners[v][k][i])));
         }
         if unclear.any() {
             self.settle(rays, query);

@@ -37,9 +37,7 @@ pub(crate) fn gather3<L: Lane>(columns: &[Vec<f32>; 3], rows: &[u32; WIDTH]) -> 
     if are_same(rows) {
         return Vec3::splat_f32(row3(columns, rows[0] as usize));
     }
-    // Taken apart: what a call may write to stands in memory however it came about.
-    let Vec3 { x, y, z } = gather3_each(columns, rows);
-    Vec3 { x, y, z }
+    gather3_each(columns, rows)
 }
 
 // Kept out of line: merged with the short way, they would take that one apart into single lanes, too.

@@ -74,14 +74,7 @@ impl<L: Lane> Met<L> {
                 other |= 1 << i;
             }
         }
-        if unseen | other == 0 {
-            return self;
-        }
-        // Copied and taken apart, so that what is hardly ever done keeps nothing in memory.
-        let hit = *hit;
-        let Self { surface, materials, scatter, inside, bodies } =
-            self.reordered(scene, &hit, media, [unseen, other]);
-        Self { surface, materials, scatter, inside, bodies }
+        if unseen | other == 0 { self } else { self.reordered(scene, hit, media, [unseen, other]) }
     }
 
     /// With what was never entered entered, and left what is left before.

@@ -26,12 +26,7 @@ impl<'a, R: Real> Column3<'a, R> {
     /// The rows named by `rows`.
     #[inline(always)]
     pub(super) fn gather<L: Lane<Scalar = R>>(&self, rows: &Rows) -> Vec3<L> {
-        if rows.is_run {
-            return self.load(rows.number[0] as usize);
-        }
-        // Taken apart: what a call may write to stands in memory however it came about.
-        let Vec3 { x, y, z } = self.gather_each(rows);
-        Vec3 { x, y, z }
+        if rows.is_run { self.load(rows.number[0] as usize) } else { self.gather_each(rows) }
     }
     /// Out of line: merged with the load, it would take that apart into single lanes, too.
     #[inline(never)]

@@ -114,7 +114,7 @@ impl<L: Lane> Lanes<L> {
             throughput: weight,
             slot: self.slot,
             medium: self.media,
-            branch: self.branch.map(|parent| child_branch(parent, which)),
+            branch: eight(|i| child_branch(self.branch[i], which)),
         }
     }
 }

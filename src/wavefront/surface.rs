@@ -113,11 +113,7 @@ pub(super) fn evaluate_wanted<L: Lane>(
     if g.instances.is_empty() || hit.instance == [0; WIDTH] {
         return SurfaceLanes::narrow(shape::evaluate(g, kind, &hit.widen(), wanted).0, wanted);
     }
-    // Copied and taken apart: what a call may read or write stands in memory however it came about.
-    let copy = *hit;
-    let SurfaceLanes { point, error, geometric_normal, shading_normal, uv } =
-        through_instances(g, kind, &copy, wanted);
-    SurfaceLanes { point, error, geometric_normal, shading_normal, uv }
+    through_instances(g, kind, hit, wanted)
 }
 
 #[inline(never)]

@@ -79,8 +79,8 @@ impl<R: Real> RayColumns<'_, R> {
         R: Stored<L>,
     {
         let (o, d, end) = (&mut rays.origin, &mut rays.direction, at + WIDTH);
-        let columns = [&self.origin, &self.direction];
-        if columns.into_iter().flatten().any(|column| column.len() < end) {
+        let is_short = |[x, y, z]: &[&[R]; 3]| x.len() < end || y.len() < end || z.len() < end;
+        if is_short(&self.origin) || is_short(&self.direction) {
             *rays = self.load(at);
             return;
         }

@@ -136,13 +136,14 @@ impl TriangleTest for Woop {
     /// rounding could make in what [`refine`] computes says nothing.
     #[inline(always)]
     fn is_left<L: Lane>(ray: &RayLanes<L>, seen: &Glimpse<L>, triangle: [[f32; 3]; 3]) -> L::Mask {
-        let [a, b, c] = triangle.map(|p| Vec3::<f64>::splat(p.map(f64::from)));
+        let [a, b, c] = three(|v| Vec3::<f64>::splat(three(|k| f64::from(triangle[v][k]))));
         let normal = (b - a).cross(c - a);
         let size = normal.x.abs() + normal.y.abs() + normal.z.abs();
         let (zero, wide_zero) = (L::zero(), <L::Double as Lane>::zero());
-        let height = (ray.origin.widen() - Vec3::splat(a.get(0))).dot(Vec3::splat(normal.get(0)));
+        let (a, normal) = (a.get(0), normal.get(0));
+        let height = (ray.origin.widen() - Vec3::splat(a)).dot(Vec3::splat(normal));
         let least = seen.reach.widen() * <L::Double as Lane>::splat(size * LEAST_HEIGHT);
-        let rises = ray.direction.dot(Vec3::splat(normal.get(0).map(<L::Scalar as Real>::from_f64)));
+        let rises = ray.direction.dot(Vec3::splat(three(|k| <L::Scalar as Real>::from_f64(normal[k]))));
         let above = L::narrow_mask(height.gt(least)) & rises.gt(zero);
         let below = L::narrow_mask(height.lt(wide_zero - least)) & rises.lt(zero);
         (above | below) & seen.is_steep & ray.t_min.ge(zero)
