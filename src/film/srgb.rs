@@ -84,7 +84,8 @@ impl SrgbTable {
 fn least_light_of(code: usize) -> f32 {
     match code {
         0 => 0.0,
-        256 => f32::INFINITY,
+        // Nothing is as bright, infinity included.
+        256 => f32::NAN,
         _ => {
             let exact = decode((code as f64 - 0.5) / 255.0);
             let nearest = exact as f32;

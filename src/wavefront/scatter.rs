@@ -6,7 +6,7 @@ use super::offset::offset_along;
 use super::queue::{PathLanes, PathQueue, Rows, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
-use crate::geometry::{entries, gather3};
+use crate::geometry::gather3;
 use crate::intersect::Tier;
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH, eight};
 use crate::sampling::{ScatterDraw, bounce, child_branch, cosine_hemisphere, to_frame};
@@ -73,7 +73,7 @@ fn gather<T: Tier>(
     let tint = gather3::<T::Wide>(&scene.materials.tint, &materials);
     let weight = surfaces.throughput.gather::<T::Wide>(rows).scale(tint);
     let inside = T::Wide::from_bits(wide::u32x8::new(rows.of(surfaces.from_inside)));
-    let from = rows.of(surfaces.path);
+    let from = Rows::new(rows.of(surfaces.path));
     let bright = weight.max_component().ge(T::Wide::constant(scene.settings.min_throughput));
     Lanes {
         point: surfaces.point.gather(rows),
@@ -84,8 +84,8 @@ fn gather<T: Tier>(
         weight,
         bodies: if surfaces.body.is_empty() { [NO_BODY; WIDTH] } else { rows.of(surfaces.body) },
         slot: rows.of(surfaces.slot),
-        media: if paths.medium.is_empty() { [OUTSIDE; WIDTH] } else { entries(paths.medium, &from) },
-        branch: if paths.branch.is_empty() { [0; WIDTH] } else { entries(paths.branch, &from) },
+        media: if paths.medium.is_empty() { [OUTSIDE; WIDTH] } else { from.of(paths.medium) },
+        branch: if paths.branch.is_empty() { [0; WIDTH] } else { from.of(paths.branch) },
         from_inside: inside.gt(T::Wide::zero()),
         lanes: lanes & bright.bits(),
     }
@@ -179,6 +179,7 @@ fn media_around<L: Lane>(s: &Lanes<L>) -> ([Media; WIDTH], [Media; WIDTH]) {
 }
 
 /// Index of refraction of the innermost dielectric; 1 outside of all.
+#[inline(always)]
 fn refraction_index<T: Tier>(worker: &Worker<T>, states: &[Media; WIDTH]) -> T::Wide {
     let scene = worker.frame.scene;
     let index = |i: usize| {

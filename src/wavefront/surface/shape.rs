@@ -28,7 +28,12 @@ pub(super) fn evaluate<D: Double>(
 fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>, wanted: Wanted) -> (SurfaceLanes<D>, D) {
     let t = &g.triangles;
     let vertex = three(|k| entries(&t.vertex[k], &hit.row));
-    let [p0, p1, p2] = three(|k| gather3::<D>(&t.position, &vertex[k]));
+    // Written out: a closure of this size is called.
+    let [p0, p1, p2] = [
+        gather3::<D>(&t.position, &vertex[0]),
+        gather3::<D>(&t.position, &vertex[1]),
+        gather3::<D>(&t.position, &vertex[2]),
+    ];
     let weights = [D::one() - hit.u - hit.v, hit.u, hit.v];
     let [a, b, c] = [p0 * weights[0], p1 * weights[1], p2 * weights[2]];
     let sizes = (a.abs() + b.abs() + c.abs()).max_component();
