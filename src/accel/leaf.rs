@@ -95,6 +95,12 @@ pub(super) trait Testable: Block {
         lanes
     }
 
+    /// Of the lanes that a query needs, those that certainly hit before `limit`, as far as is cheap to tell.
+    #[inline(always)]
+    fn surely<T: Tier, W: Walk>(&self, _: usize, _: Lanes<T>, _: &TestRays<T>, _limit: T::Wide) -> Lanes<T> {
+        Mask::splat(false)
+    }
+
     /// What is certain without meeting them, where there is a cheap way to tell.
     #[inline(always)]
     fn glimpse<T: Tier, W: Walk>(&self, _step: usize, _: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
@@ -140,7 +146,7 @@ impl Testable for TriangleBlock {
 
 /// Curved primitives are met alike, each kind by functions of its own.
 macro_rules! curved {
-    ($block:ty, $primitives:ident, $may_hit:ident, $within:ident, $hit:ident) => {
+    ($block:ty, $primitives:ident, $may_hit:ident, $within:ident, $surely:ident, $hit:ident) => {
         impl Testable for $block {
             #[inline(always)]
             fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
@@ -156,6 +162,17 @@ macro_rules! curved {
                 _: T::Wide,
             ) -> LaneHit<T::Wide> {
                 T::Curved::$hit(lanes, rays.ray, &self.$primitives::<W, _>(step))
+            }
+
+            #[inline(always)]
+            fn surely<T: Tier, W: Walk>(
+                &self,
+                step: usize,
+                lanes: Lanes<T>,
+                rays: &TestRays<T>,
+                limit: T::Wide,
+            ) -> Lanes<T> {
+                T::Curved::$surely(lanes, rays.ray, &self.$primitives::<W, _>(step), limit)
             }
 
             /// Lanes that still ask, or those that may hit before what was found.
@@ -177,8 +194,8 @@ macro_rules! curved {
     };
 }
 
-curved!(SphereBlock, spheres, may_hit_sphere, sphere_within, hit_sphere);
-curved!(CylinderBlock, cylinders, may_hit_cylinder, cylinder_within, hit_cylinder);
+curved!(SphereBlock, spheres, may_hit_sphere, sphere_within, sphere_surely, hit_sphere);
+curved!(CylinderBlock, cylinders, may_hit_cylinder, cylinder_within, cylinder_surely, hit_cylinder);
 
 /// What is done with the block of a leaf, whatever its kind.
 pub(super) trait BlockVisitor {

@@ -39,11 +39,21 @@ impl<T: Tier> Pending<T> {
     ) -> bool {
         let Some(seen) = block.glimpse::<T, RaysByPrimitive>(i, rays) else {
             self.settle(rays, query);
-            let needed = block.needed::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
-            return needed.any() && block.ask::<T, RaysByPrimitive, Q>(i, needed, rays, query);
+            let mut needed = block.needed::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
+            let mut accepted = false;
+            if Q::ANY {
+                let sure = block.surely::<T, RaysByPrimitive>(i, needed, rays, query.limit());
+                query.take(sure, T::Wide::zero(), BitLane::splat(block.ids()[i]));
+                (accepted, needed) = (sure.any(), needed & !sure);
+            }
+            return needed.any() && block.ask::<T, RaysByPrimitive, Q>(i, needed, rays, query) || accepted;
         };
-        let (certain, unclear) = self.sort(lanes & seen.inside, &seen, rays.ray.t_min, query.limit());
+        let (certain, mut unclear) = self.sort(lanes & seen.inside, &seen, rays.ray.t_min, query.limit());
         let mut accepted = certain.any();
+        if let Some(corners) = block.corners_of_triangles().filter(|_| unclear.any()) {
+            unclear =
+                unclear & !T::Triangle::is_left(rays.ray, &seen, three(|v| three(|k| corners[v][k][i])));
+        }
         if unclear.any() {
             self.settle(rays, query);
             accepted |= block.ask::<T, RaysByPrimitive, Q>(i, unclear, rays, query);

@@ -3,6 +3,8 @@
 //! Contributions to a sample come in any order (queues, chunks, packets). Each is rounded to a multiple of 2^-30 once;
 //! sums of such multiples are exact in `f64` up to 2^23, and exact sums are the same in any order.
 
+use wide::{f32x8, f64x8};
+
 use crate::math::{Lane, Mask, Vec3, WIDTH, eight, three};
 
 /// Largest magnitude of one contribution: 64 of the largest still sum exactly.
@@ -92,6 +94,12 @@ impl SampleSums {
             self.nan_count += u64::from((lanes & !numbers).count_ones());
         }
         lanes & numbers
+    }
+
+    /// The radiances of eight samples from one on, by channel.
+    #[inline(always)]
+    pub fn eight(&self, first: usize) -> [[f32; WIDTH]; 3] {
+        three(|c| f32x8::narrow(f64x8::load(&self.sums[c][first..])).to_array())
     }
 
     /// The radiance of a sample.

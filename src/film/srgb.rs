@@ -49,12 +49,33 @@ impl SrgbTable {
     }
 
     /// The byte of linear light `value`, as [`srgb8_from_linear`].
+    #[inline(always)]
     pub(super) fn encode(&self, value: f32) -> u8 {
-        if value >= 1.0 {
-            return 255;
+        self.encode_in(Self::cell(value), value)
+    }
+
+    /// The bytes of many values: the cells of all of them first, which needs no table and so goes eight at a time.
+    #[inline(always)]
+    pub(super) fn encode_all<const N: usize>(&self, values: &[f32; N], bytes: &mut [u8; N]) {
+        let mut cells = [0; N];
+        for (cell, &value) in cells.iter_mut().zip(values) {
+            *cell = Self::cell(value);
         }
-        // Scaling by a power of two is exact; the cast turns negatives and NaN into cell 0.
-        let code = self.code_at_start[(value * CELLS as f32) as usize];
+        for (byte, (&cell, &value)) in bytes.iter_mut().zip(cells.iter().zip(values)) {
+            *byte = self.encode_in(cell, value);
+        }
+    }
+
+    /// Scaling by a power of two is exact; the cast turns negatives and NaN into cell 0. The last cell holds all that is
+    /// brighter, too: it starts with the last code.
+    #[inline(always)]
+    fn cell(value: f32) -> u32 {
+        ((value * CELLS as f32) as u32).min(CELLS as u32 - 1)
+    }
+
+    #[inline(always)]
+    fn encode_in(&self, cell: u32, value: f32) -> u8 {
+        let code = self.code_at_start[cell as usize % CELLS];
         code + u8::from(value >= self.boundary[code as usize + 1])
     }
 }
@@ -63,7 +84,8 @@ impl SrgbTable {
 fn least_light_of(code: usize) -> f32 {
     match code {
         0 => 0.0,
-        256 => f32::INFINITY,
+        // Nothing is as bright, infinity included.
+        256 => f32::NAN,
         _ => {
             let exact = decode((code as f64 - 0.5) / 255.0);
             let nearest = exact as f32;

@@ -7,7 +7,7 @@ use std::str::FromStr;
 
 use super::image::{Film, Rgb8};
 use super::srgb::SrgbTable;
-use crate::math::three;
+use crate::math::WIDTH;
 
 /// How far exposure may go, either way, in stops.
 const MAX_STOPS: f32 = 64.0;
@@ -89,15 +89,35 @@ pub fn develop_row(pixels: &[[f32; 3]], tone: Tone, bytes: &mut Vec<u8>) -> u64 
 fn encode(pixels: &[[f32; 3]], tone: Tone, bytes: &mut Vec<u8>, curve: impl Fn([f32; 3]) -> [f32; 3]) -> u64 {
     let table = SrgbTable::get();
     let gain = libm::exp2f(tone.exposure_ev.clamp(-MAX_STOPS, MAX_STOPS));
-    let mut nan_values = 0;
     let start = bytes.len();
     bytes.resize(start + 3 * pixels.len(), 0);
-    for (pixel, bytes) in pixels.iter().zip(bytes[start..].as_chunks_mut().0) {
-        nan_values += pixel.iter().filter(|value| value.is_nan()).count() as u64;
-        let light = curve(three(|c| expose(pixel[c], gain)));
-        *bytes = three(|c| table.encode(light[c]));
+    // Eight pixels are 24 values, three vectors.
+    let (eights, rest) = pixels.as_chunks::<WIDTH>();
+    let (of_eights, of_rest) = bytes[start..].as_chunks_mut::<{ 3 * WIDTH }>();
+    let many =
+        eights.iter().zip(of_eights).map(|(pixels, bytes)| encode_some(table, pixels, (gain, &curve), bytes));
+    let few = rest.iter().zip(of_rest.as_chunks_mut::<3>().0);
+    many.sum::<u64>()
+        + few.map(|(pixel, bytes)| encode_some(table, &[*pixel], (gain, &curve), bytes)).sum::<u64>()
+}
+
+/// The bytes of some pixels; gives the number of channel values that were not a number.
+#[inline(always)]
+fn encode_some<const PIXELS: usize, const VALUES: usize>(
+    table: &SrgbTable,
+    pixels: &[[f32; 3]; PIXELS],
+    (gain, curve): (f32, impl Fn([f32; 3]) -> [f32; 3]),
+    bytes: &mut [u8; VALUES],
+) -> u64 {
+    let mut light = [0.0; VALUES];
+    for (light, &value) in light.iter_mut().zip(pixels.as_flattened()) {
+        *light = expose(value, gain);
     }
-    nan_values
+    for light in light.as_chunks_mut().0 {
+        *light = curve(*light);
+    }
+    table.encode_all(&light, bytes);
+    pixels.as_flattened().iter().map(|value| u64::from(value.is_nan())).sum()
 }
 
 /// Light after exposure, finite and not negative; NaN gives 0.

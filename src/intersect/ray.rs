@@ -68,7 +68,7 @@ impl PrimKind {
 pub struct PrimId(pub(crate) u32);
 
 impl PrimId {
-    const ROW_BITS: u32 = 29;
+    pub(crate) const ROW_BITS: u32 = 29;
     /// Rows that one kind can have.
     pub const MAX_ROWS: usize = 1 << Self::ROW_BITS;
 

@@ -33,6 +33,12 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
     ) -> Option<Glimpse<L>> {
         None
     }
+    /// Lanes whose rays have a triangle behind them for certain, as they have that which they left: one that a glimpse told
+    /// too little of. [`TriangleTest::hit`] finds it at zero or before.
+    #[inline(always)]
+    fn is_left<L: Lane>(_: &RayLanes<L>, _seen: &Glimpse<L>, _triangle: [[f32; 3]; 3]) -> L::Mask {
+        L::Mask::splat(false)
+    }
     /// Where rays meet triangles that a glimpse told them to hit: as [`TriangleTest::hit`] finds it.
     #[inline(always)]
     fn settle<L: Lane>(_: &RayLanes<L>, _vertices: [Vec3<L>; 3]) -> LaneHit<L> {
@@ -78,6 +84,11 @@ pub trait Curved: Copy + Send + Sync + 'static {
     fn sphere_within<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
         lanes
     }
+    /// Of those lanes, the ones that certainly hit before `limit`, if it costs little beside meeting them to tell.
+    #[inline(always)]
+    fn sphere_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
+        L::Mask::splat(false)
+    }
     /// Lanes whose rays may hit their cylinders, as far as is cheap to tell.
     fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> L::Mask;
     /// As [`Curved::sphere_within`].
@@ -89,6 +100,11 @@ pub trait Curved: Copy + Send + Sync + 'static {
         _limit: L,
     ) -> L::Mask {
         lanes
+    }
+    /// As [`Curved::sphere_surely`].
+    #[inline(always)]
+    fn cylinder_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>, _limit: L) -> L::Mask {
+        L::Mask::splat(false)
     }
     /// Meets those lanes with their cylinders.
     fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
@@ -142,6 +158,10 @@ impl Curved for Filtered {
     #[inline(always)]
     fn sphere_within<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
         if doubt::is_exact::<L>() { lanes & !sphere::is_beyond(ray, s, limit) } else { lanes }
+    }
+    #[inline(always)]
+    fn sphere_surely<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
+        lanes & sphere::surely_hits(ray, s, limit)
     }
     #[inline(always)]
     fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {

@@ -39,6 +39,7 @@ pub use error::LoadError;
 pub use kept::KeptMeshes;
 pub use mtl::material_files;
 pub use terrain::terrain;
+pub(crate) use texture::linear_from_srgb;
 pub use texture::{Texture, load_texture, srgb_to_linear};
 
 /// A triangle mesh.

@@ -38,8 +38,13 @@ impl Texture {
     /// When the texel lies outside.
     #[must_use]
     pub fn linear(&self, column: u32, row: u32) -> [f32; 3] {
-        let [r, g, b, _] = self.texels[row as usize * self.width as usize + column as usize];
+        let [r, g, b, _] = self.texel(column, row);
         [r, g, b].map(srgb_to_linear)
+    }
+
+    #[inline(always)]
+    pub(crate) fn texel(&self, column: u32, row: u32) -> [u8; 4] {
+        self.texels[row as usize * self.width as usize + column as usize]
     }
 }
 
@@ -48,6 +53,11 @@ impl Texture {
 /// **Source**: IEC 61966-2-1.
 #[must_use]
 pub fn srgb_to_linear(value: u8) -> f32 {
+    linear_from_srgb()[usize::from(value)]
+}
+
+/// That table.
+pub(crate) fn linear_from_srgb() -> &'static [f32; 256] {
     static TABLE: LazyLock<[f32; 256]> = LazyLock::new(|| {
         std::array::from_fn(|i| {
             let encoded = i as f64 / 255.0;
@@ -55,7 +65,7 @@ pub fn srgb_to_linear(value: u8) -> f32 {
             (if encoded <= 0.04045 { encoded / 12.92 } else { curve() }) as f32
         })
     });
-    TABLE[usize::from(value)]
+    &TABLE
 }
 
 #[cfg(test)]

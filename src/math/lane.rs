@@ -202,7 +202,9 @@ impl<L: Lane<Scalar = f64>> Stored<L> for f64 {
 }
 
 /// A lane of width one: `f32` or `f64`.
-pub trait Real: Lane<Scalar = Self, Mask = bool, Bits = u32, Double = f64> + PartialOrd + Default {
+pub trait Real:
+    Lane<Scalar = Self, Mask = bool, Bits = u32, Double = f64> + PartialOrd + Default + bytemuck::Pod
+{
     /// Unit roundoff: half the distance from 1 to the next larger number.
     const ROUNDOFF: f64;
     /// Exact for `f32`; rounds for nothing else.

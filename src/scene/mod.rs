@@ -15,6 +15,7 @@ pub use light::Light;
 pub use material::{MaterialRow, Materials, NO_TEXTURE, Scatter};
 pub use objects::ObjectRows;
 pub use requirements::Requirements;
+pub(crate) use texture::sample_eight;
 pub use texture::sample_texture;
 
 use std::sync::Arc;

@@ -1,6 +1,6 @@
 //! Powers of cosines, with the same bits on every machine and in every lane.
 
-use crate::math::{BitLane, Lane};
+use crate::math::{BitLane, Lane, Mask};
 
 /// Fractional bits of a [`Shininess`].
 const FRACTION_BITS: u32 = 8;
@@ -52,6 +52,11 @@ impl Shininess {
 #[inline(always)]
 pub fn pow_clamped<L: Lane, const FRACTION: bool>(x: L, exponent: L::Bits, bits: u32) -> L {
     let x = x.clamp(L::zero(), L::one());
+    let first = exponent.get(0);
+    let differing = L::from_bits(exponent ^ L::Bits::splat(first));
+    if !FRACTION && !differing.gt(L::zero()).any() {
+        return whole_power(x, first >> FRACTION_BITS);
+    }
     let mut power = L::one();
     let mut square = x;
     for bit in FRACTION_BITS..FRACTION_BITS + bits {
@@ -59,6 +64,20 @@ pub fn pow_clamped<L: Lane, const FRACTION: bool>(x: L, exponent: L::Bits, bits:
         square = square * square;
     }
     if FRACTION { power * root_power(x, exponent) } else { power }
+}
+
+/// `x` to a power that all lanes share, as they do where neighbours are of the same material.
+#[inline(always)]
+fn whole_power<L: Lane>(x: L, exponent: u32) -> L {
+    let (mut power, mut square, mut rest) = (L::one(), x, exponent);
+    while rest != 0 {
+        if rest & 1 != 0 {
+            power = power * square;
+        }
+        square = square * square;
+        rest >>= 1;
+    }
+    power
 }
 
 /// `x` to the power of the fraction.

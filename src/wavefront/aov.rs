@@ -23,12 +23,10 @@ pub(super) fn look<T: Tier>(
     seen.clear();
     seen.resize(pixels.len(), AovSample::default());
     let [arena, below, ..] = arenas else { unreachable!("arenas for camera rays and for their hits") };
-    arena.reset();
-    below.reset();
     let scene = worker.frame.scene;
-    let paths = generate_centres::<T>(worker.frame, pixels, arena);
+    let paths = generate_centres::<T>(worker.frame, pixels, &arena.open());
     worker.rays.camera += paths.len as u64;
-    let hits = extend(worker, &paths, (0, paths.len), worker.frame.apex, below);
+    let hits = extend(worker, &paths, (0, paths.len), worker.frame.apex, &below.open());
     for (kind, list) in KINDS.into_iter().zip(&hits.by_kind) {
         for at in (0..list.len()).step_by(WIDTH) {
             let (rows, lanes) = list_lanes(list, at);

@@ -1,9 +1,8 @@
 //! Direct light: for each light a queue of shadow rays, traced full packets at a time.
 
-use bumpalo::Bump;
-
+use super::arena::Room;
 use super::offset::offset_along;
-use super::queue::{Column3, column, compress_eight, words};
+use super::queue::{Column3, compress_eight, words};
 use super::surface_queue::SurfaceQueue;
 use super::wave::Worker;
 use crate::accel::Hint;
@@ -27,16 +26,16 @@ struct ShadowQueue<'a, R> {
 }
 
 /// Adds the light of all lights that reaches the surfaces.
-pub(super) fn connect<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T::Real>, arena: &Bump) {
+pub(super) fn connect<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T::Real>, room: &Room) {
     let scene = worker.frame.scene;
     let n = surfaces.len;
     let mut queue = ShadowQueue {
         len: 0,
-        origin: Column3::new(arena, n + WIDTH),
-        direction: Column3::new(arena, n + WIDTH),
-        radiance: Column3::new(arena, n + WIDTH),
-        slot: column(arena, n + WIDTH),
-        occluded: column(arena, n / WIDTH + 1),
+        origin: Column3::new(room, n + WIDTH),
+        direction: Column3::new(room, n + WIDTH),
+        radiance: Column3::new(room, n + WIDTH),
+        slot: room.column(n + WIDTH),
+        occluded: room.column(n / WIDTH + 1),
     };
     for light in &scene.lights {
         queue.len = 0;
@@ -46,6 +45,8 @@ pub(super) fn connect<T: Tier>(worker: &mut Worker<T>, surfaces: &SurfaceQueue<T
         }
         if scene.settings.shadows {
             trace(worker, light, &mut queue);
+        } else {
+            queue.occluded.fill(0);
         }
         add_light(worker, &queue);
     }

@@ -11,7 +11,7 @@
 
 use super::medium::{Media, NO_BODY, body_of, innermost, is_inside, material_of_body, sphere_of};
 use super::queue::Rows;
-use super::surface::{HitLanes, SurfaceLanes, evaluate};
+use super::surface::{HitLanes, SurfaceLanes, Wanted, evaluate, evaluate_wanted};
 use super::surface_queue::{from_inside, materials_of};
 use crate::geometry::{Geometry, entries};
 use crate::intersect::PrimKind;
@@ -44,25 +44,26 @@ impl<L: Lane> Met<L> {
         media: &[Media],
         paths: &Rows,
     ) -> Self {
-        let surface = evaluate(&scene.geometry, kind, hit);
+        let needs = &scene.requirements;
+        let wanted = Wanted { shading_normal: needs.shading_normals, uv: needs.textures };
+        let surface = evaluate_wanted(&scene.geometry, kind, hit, wanted);
         let materials = materials_of(scene, kind, hit);
         let scatter = entries(&scene.materials.scatter, &materials);
         let inside = from_inside(hit.direction, &surface);
-        let mut met = Self { surface, materials, scatter, inside, bodies: [NO_BODY; WIDTH] };
+        let met = Self { surface, materials, scatter, inside, bodies: [NO_BODY; WIDTH] };
         if !media.is_empty() && scatter.contains(&Scatter::Dielectric) {
-            met.bodies = eight(|i| match scatter[i] {
+            let bodies = eight(|i| match scatter[i] {
                 Scatter::Dielectric => body_of(kind, hit.row[i], hit.instance[i], materials[i]),
                 _ => NO_BODY,
             });
-            met.settle(scene, hit, &paths.of(media));
+            return Self { bodies, ..met }.settled(scene, hit, &paths.of(media));
         }
         met
     }
 
-    /// Puts right what rounding has put in the wrong order.
+    /// With that put right which rounding has put in the wrong order.
     #[inline(always)]
-    fn settle(&mut self, scene: &Scene, hit: &HitLanes<L>, media: &[Media; WIDTH]) {
-        let geometry = &scene.geometry;
+    fn settled(self, scene: &Scene, hit: &HitLanes<L>, media: &[Media; WIDTH]) -> Self {
         let inside = self.inside.bits();
         let (mut unseen, mut other) = (0, 0);
         for (i, &state) in media.iter().enumerate() {
@@ -73,17 +74,30 @@ impl<L: Lane> Met<L> {
                 other |= 1 << i;
             }
         }
+        if unseen | other == 0 { self } else { self.reordered(scene, hit, media, [unseen, other]) }
+    }
+
+    /// With what was never entered entered, and left what is left before.
+    #[cold]
+    #[inline(never)]
+    fn reordered(
+        mut self,
+        scene: &Scene,
+        hit: &HitLanes<L>,
+        media: &[Media; WIDTH],
+        [unseen, other]: [u32; 2],
+    ) -> Self {
         if unseen != 0 {
-            self.enter_late(geometry, hit, unseen);
+            self.enter_late(&scene.geometry, hit, unseen);
         }
         if other != 0 {
-            self.leave_first(geometry, hit, other, media.map(innermost));
+            self.leave_first(&scene.geometry, hit, other, media.map(innermost));
             self.scatter = entries(&scene.materials.scatter, &self.materials);
         }
+        self
     }
 
     /// Of bodies met from inside that were never entered: those at whose surface the ray starts are met there.
-    #[cold]
     fn enter_late(&mut self, geometry: &Geometry, hit: &HitLanes<L>, lanes: u32) {
         let (there, near) = surface_at(geometry, &self.bodies, lanes, hit.origin, hit.direction);
         let enters = there.geometric_normal.dot(hit.direction).lt(L::zero());
@@ -94,7 +108,6 @@ impl<L: Lane> Met<L> {
     }
 
     /// Of surfaces met inside of `around`: where the ray leaves that one at the same place, it does so first.
-    #[cold]
     fn leave_first(&mut self, geometry: &Geometry, hit: &HitLanes<L>, lanes: u32, around: [u32; WIDTH]) {
         let (there, near) = surface_at(geometry, &around, lanes, self.surface.point, hit.direction);
         let leaves = near & from_inside(hit.direction, &there);

@@ -1,15 +1,12 @@
 //! Paths to their nearest hits, sorted by the kind of primitive.
 
-use std::ops::Range;
-
-use bumpalo::Bump;
-
-use super::queue::{PathQueue, column};
+use super::arena::{List, Room};
+use super::queue::{PathQueue, words};
 use super::wave::Worker;
 use crate::accel::Hint;
 use crate::accel::stream::{Apex, Bound, HitColumns, RayColumns};
 use crate::intersect::{PrimId, PrimKind, Tier};
-use crate::math::{Lane, Real, WIDTH, eight};
+use crate::math::{BitLane, Lane, Real, WIDTH, eight};
 
 /// Nearest hits of a chunk of paths, and the paths by what they hit.
 ///
@@ -21,8 +18,8 @@ pub(super) struct Hits<'a, R> {
     pub(super) prim: &'a mut [u32],
     /// Empty where the scene has no instances.
     pub(super) instance: &'a mut [u32],
-    pub(super) misses: bumpalo::collections::Vec<'a, u32>,
-    pub(super) by_kind: [bumpalo::collections::Vec<'a, u32>; 4],
+    pub(super) misses: List<'a>,
+    pub(super) by_kind: [List<'a>; 4],
 }
 
 /// Traces the paths of rows `first..first + n` of a queue.
@@ -31,16 +28,16 @@ pub(super) fn extend<'a, T: Tier>(
     queue: &PathQueue<T::Real>,
     (first, n): (usize, usize),
     apex: Option<Apex>,
-    arena: &'a Bump,
+    room: &Room<'a>,
 ) -> Hits<'a, T::Real> {
     let requirements = &worker.frame.scene.requirements;
-    let list = || bumpalo::collections::Vec::with_capacity_in(n, arena);
+    let list = || room.list(n);
     let mut hits = Hits {
-        t: column(arena, n),
-        u: column(arena, n),
-        v: column(arena, n),
-        prim: column(arena, n),
-        instance: column(arena, if requirements.instances { n } else { 0 }),
+        t: room.column(n),
+        u: room.column(n),
+        v: room.column(n),
+        prim: room.column(n),
+        instance: room.column(if requirements.instances { n } else { 0 }),
         misses: list(),
         by_kind: [list(), list(), list(), list()],
     };
@@ -56,44 +53,37 @@ pub(super) fn extend<'a, T: Tier>(
     };
     let mut found = HitColumns { t: hits.t, u: hits.u, v: hits.v, prim: hits.prim, instance: hits.instance };
     worker.stream.closest(&rays, apex, Hint::Auto, &mut found);
-    hits.sort(n);
+    hits.sort::<T::Wide>(n);
     hits
 }
 
 impl<'a, R: Real> Hits<'a, R> {
     /// Sorts the paths by what they hit, eight together where that is the same.
-    fn sort(&mut self, n: usize) {
+    fn sort<L: Lane<Scalar = R, Bits = wide::u32x8>>(&mut self, n: usize) {
         for first in (0..n).step_by(WIDTH) {
-            let end = n.min(first + WIDTH);
-            if end == first + WIDTH && self.are_alike(first..end) {
-                self.list(self.kind(first)).extend_from_slice_copy(&eight(|i| (first + i) as u32));
+            let (kinds, rows) = (self.kinds::<L>(first), eight(|i| (first + i) as u32));
+            let count = (n - first).min(WIDTH);
+            if kinds[..count].iter().all(|&kind| kind == kinds[0]) {
+                self.list(kinds[0]).extend(&rows, count);
                 continue;
             }
-            for row in first..end {
-                self.list(self.kind(row)).push(row as u32);
+            for i in 0..count {
+                self.list(kinds[i]).push(rows[i]);
             }
         }
     }
 
-    /// Whether all paths missed, or all hit the same kind of primitive.
+    /// What kinds of primitive eight paths hit; 0 is none.
     #[inline(always)]
-    fn are_alike(&self, rows: Range<usize>) -> bool {
-        let (t, prim) = (&self.t[rows.clone()], &self.prim[rows]);
-        let hits = t.iter().filter(|&&t| t < R::constant(f64::INFINITY)).count();
-        let differing = prim.iter().fold(0, |bits, p| bits | (p ^ prim[0]));
-        hits == 0 || hits == t.len() && (differing as usize) < PrimId::MAX_ROWS
-    }
-
-    /// What kind of primitive a path hit; 0 is none.
-    #[inline(always)]
-    fn kind(&self, row: usize) -> usize {
-        let is_hit = self.t[row] < R::constant(f64::INFINITY);
-        if is_hit { PrimId(self.prim[row]).kind() as usize } else { 0 }
+    fn kinds<L: Lane<Scalar = R, Bits = wide::u32x8>>(&self, first: usize) -> [u32; WIDTH] {
+        let hit = L::load(&self.t[first..]).lt(L::constant(f64::INFINITY));
+        let kinds = wide::u32x8::new(*words(self.prim, first)) >> PrimId::ROW_BITS;
+        L::select_bits(hit, kinds, BitLane::splat(0)).to_array()
     }
 
     #[inline(always)]
-    fn list(&mut self, kind: usize) -> &mut bumpalo::collections::Vec<'a, u32> {
-        if kind == 0 { &mut self.misses } else { &mut self.by_kind[kind - 1] }
+    fn list(&mut self, kind: u32) -> &mut List<'a> {
+        if kind == 0 { &mut self.misses } else { &mut self.by_kind[kind as usize - 1] }
     }
 }
 

@@ -1,8 +1,8 @@
 //! Camera rays for the samples of a wave.
 
-use bumpalo::Bump;
-
-use super::queue::{PathNeeds, PathQueue, padded};
+use super::arena::{Room, padded};
+use super::medium::OUTSIDE;
+use super::queue::{PathNeeds, PathQueue};
 use super::wave::{Frame, WaveSamples};
 use crate::intersect::Tier;
 use crate::math::{BitLane, Lane, Vec3, WIDTH, eight};
@@ -14,11 +14,11 @@ type Bits = wide::u32x8;
 pub(super) fn generate<'a, T: Tier>(
     frame: &Frame,
     wave: WaveSamples,
-    arena: &'a Bump,
+    room: &Room<'a>,
 ) -> (PathQueue<'a, T::Real>, &'a mut [T::Real]) {
     let n = wave.len();
-    let mut queue = PathQueue::new(arena, n, frame.path_needs());
-    let weights = super::queue::column(arena, if frame.scene.requirements.sample_weights { n } else { 0 });
+    let mut queue = PathQueue::new(room, n, frame.path_needs());
+    let weights = room.column(if frame.scene.requirements.sample_weights { n } else { 0 });
     for at in (0..padded(n)).step_by(WIDTH) {
         let (rays, weight) = camera_rays::<T>(frame, wave, at);
         queue.origin.store(at, rays.origin);
@@ -34,6 +34,8 @@ pub(super) fn generate<'a, T: Tier>(
     for (slot, entry) in queue.slot.iter_mut().enumerate() {
         *entry = slot as u32;
     }
+    queue.medium.fill(OUTSIDE);
+    queue.branch.fill(0);
     queue.len = n;
     (queue, weights)
 }
@@ -45,9 +47,7 @@ fn camera_rays<T: Tier>(
     wave: WaveSamples,
     at: usize,
 ) -> (crate::scene::CameraRays<T::Wide>, T::Wide) {
-    let slots = wave.eight_slots(at);
-    let (x, y) = (Bits::new(eight(|i| slots[i].0[0])), Bits::new(eight(|i| slots[i].0[1])));
-    let sample = Bits::new(eight(|i| slots[i].1));
+    let [x, y, sample] = wave.eight_slots(at);
     let draw = |dimension| frame.sampler.pair::<T::Wide>(x, y, sample, BitLane::splat(dimension));
     let (u, v) = draw(FILTER);
     let (dx, dy, weight) = frame.filter.sample(u, v);
@@ -70,10 +70,10 @@ fn on_film<T: Tier>(frame: &Frame, (x, y): (Bits, Bits), (dx, dy): (T::Wide, T::
 pub(super) fn generate_centres<'a, T: Tier>(
     frame: &Frame,
     pixels: &[[u32; 2]],
-    arena: &'a Bump,
+    room: &Room<'a>,
 ) -> PathQueue<'a, T::Real> {
     let mut queue =
-        PathQueue::new(arena, pixels.len(), PathNeeds { medium: false, branch: false, ..frame.path_needs() });
+        PathQueue::new(room, pixels.len(), PathNeeds { medium: false, branch: false, ..frame.path_needs() });
     let zero = T::Wide::zero();
     for at in (0..pixels.len()).step_by(WIDTH) {
         let pixel = |i: usize| pixels[(at + i).min(pixels.len() - 1)];

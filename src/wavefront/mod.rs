@@ -7,6 +7,7 @@
 mod adaptive;
 mod adaptive_tile;
 mod aov;
+mod arena;
 mod connect;
 mod contact;
 mod emit;

@@ -2,8 +2,7 @@
 
 use std::ops::Range;
 
-use bumpalo::Bump;
-
+use super::arena::Arena;
 use super::run::CHUNK;
 use super::tile::{Rect, Sums, pixels};
 use super::wave::{Frame, WaveCounts, WaveSamples};
@@ -39,7 +38,7 @@ pub(crate) trait Tiles {
 /// One thread's memory, to be kept for its next picture: the system gives pages slowly.
 #[derive(Default)]
 pub(crate) struct Scratch {
-    arenas: Vec<Bump>,
+    arenas: Vec<Arena>,
     pixels: Vec<[u32; 2]>,
     sums: Sums,
     seen: Vec<AovSample>,

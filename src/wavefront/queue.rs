@@ -1,28 +1,17 @@
 //! Columns of path states in a worker's arena.
 //!
-//! A queue has a fixed capacity, padded to the packet width, and lives until its arena is reset for the next wave.
+//! A queue has a fixed capacity, padded to the packet width, and lives until its arena is opened for the next wave.
 
-use bumpalo::Bump;
-
+use super::arena::Room;
 use super::medium::Media;
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
-
-/// The least multiple of the packet width that holds `n`.
-pub(super) fn padded(n: usize) -> usize {
-    n.next_multiple_of(WIDTH)
-}
-
-/// A column of `n` default values, padded.
-pub(super) fn column<T: Copy + Default>(arena: &Bump, n: usize) -> &mut [T] {
-    arena.alloc_slice_fill_copy(padded(n), T::default())
-}
+use crate::math::{Lane, Real, Vec3, WIDTH, eight, three};
 
 /// Three columns: a point, a direction or a colour a row.
 pub(super) struct Column3<'a, R>([&'a mut [R]; 3]);
 
 impl<'a, R: Real> Column3<'a, R> {
-    pub(super) fn new(arena: &'a Bump, n: usize) -> Self {
-        Self([column(arena, n), column(arena, n), column(arena, n)])
+    pub(super) fn new(room: &Room<'a>, n: usize) -> Self {
+        Self(three(|_| room.column(n)))
     }
     /// The columns from row `at` on.
     pub(super) fn rows_from(&self, at: usize) -> [&[R]; 3] {
@@ -53,10 +42,10 @@ impl<'a, R: Real> Column3<'a, R> {
         v.y.store(&mut y[at..]);
         v.z.store(&mut z[at..]);
     }
-    /// Writes the chosen lanes to consecutive rows from `at` on.
+    /// Writes the chosen lanes to consecutive rows from `at` on; anything to the rows of that eight that are left.
     #[inline(always)]
     pub(super) fn compress<L: Lane<Scalar = R>>(&mut self, at: usize, v: Vec3<L>, lanes: u32) {
-        if lanes == L::Mask::splat(true).bits() { self.store(at, v) } else { self.store_some(at, v, lanes) }
+        if are_first(lanes) { self.store(at, v) } else { self.store_some(at, v, lanes) }
     }
     #[inline(never)]
     fn store_some<L: Lane<Scalar = R>>(&mut self, at: usize, v: Vec3<L>, lanes: u32) {
@@ -67,10 +56,16 @@ impl<'a, R: Real> Column3<'a, R> {
     }
 }
 
-/// Writes the chosen of eight entries to consecutive rows from `at` on.
+/// True if the chosen lanes are the first, as all are, and those of the last packet of a list: they lie as they will.
+#[inline(always)]
+fn are_first(lanes: u32) -> bool {
+    lanes & (lanes + 1) == 0
+}
+
+/// Writes the chosen of eight entries to consecutive rows from `at` on; anything to the rows of that eight that are left.
 #[inline(always)]
 pub(super) fn compress_eight<T: Copy>(column: &mut [T], at: usize, entries: &[T; WIDTH], lanes: u32) {
-    if lanes == 0xff { store_eight(column, at, entries) } else { store_some(column, at, entries, lanes) }
+    if are_first(lanes) { store_eight(column, at, entries) } else { store_some(column, at, entries, lanes) }
 }
 
 #[inline(never)]
@@ -192,18 +187,36 @@ pub(super) struct PathNeeds {
 }
 
 impl<'a, R: Real> PathQueue<'a, R> {
-    pub(super) fn new(arena: &'a Bump, capacity: usize, needs: PathNeeds) -> Self {
+    pub(super) fn new(room: &Room<'a>, capacity: usize, needs: PathNeeds) -> Self {
         let wanted = |yes: bool| if yes { capacity } else { 0 };
         Self {
             len: 0,
-            origin: Column3::new(arena, capacity),
-            direction: Column3::new(arena, capacity),
-            t_min: column(arena, wanted(needs.t_min)),
-            throughput: Column3::new(arena, capacity),
-            slot: column(arena, capacity),
-            medium: column(arena, wanted(needs.medium)),
-            branch: column(arena, wanted(needs.branch)),
+            origin: Column3::new(room, capacity),
+            direction: Column3::new(room, capacity),
+            t_min: room.column(wanted(needs.t_min)),
+            throughput: Column3::new(room, capacity),
+            slot: room.column(capacity),
+            medium: room.column(wanted(needs.medium)),
+            branch: room.column(wanted(needs.branch)),
         }
+    }
+
+    /// Appends the paths of a queue with the same needs.
+    pub(super) fn append(&mut self, more: &PathQueue<R>) {
+        fn copy<T: Copy>(to: &mut [T], at: usize, from: &[T], n: usize) {
+            if !to.is_empty() {
+                to[at..at + n].copy_from_slice(&from[..n]);
+            }
+        }
+        let (at, n) = (self.len, more.len);
+        let columns = [(&mut self.origin, &more.origin), (&mut self.direction, &more.direction)];
+        for (to, from) in columns.into_iter().chain([(&mut self.throughput, &more.throughput)]) {
+            to.0.iter_mut().zip(&from.0).for_each(|(to, from)| copy(to, at, from, n));
+        }
+        copy(self.slot, at, more.slot, n);
+        copy(self.medium, at, more.medium, n);
+        copy(self.branch, at, more.branch, n);
+        self.len += n;
     }
 
     /// Appends the chosen lanes.
@@ -237,11 +250,12 @@ pub(super) struct PathLanes<L> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::wavefront::arena::Arena;
 
     #[test]
     fn compress_keeps_the_order_of_lanes() {
-        let arena = Bump::new();
-        let mut columns = Column3::new(&arena, 16);
+        let mut arena = Arena::default();
+        let mut columns = Column3::new(&arena.open(), 16);
         let v = wide::f32x8::new([0., 1., 2., 3., 4., 5., 6., 7.]);
         columns.compress(3, Vec3 { x: v, y: -v, z: v }, 0b1010_0110);
         let [x, y, _] = columns.rows_from(3);

@@ -1,12 +1,11 @@
 //! One wave through all stages and depths.
 
-use bumpalo::Bump;
-
+use super::arena::Arena;
 use super::connect::connect;
 use super::emit::{background, glow};
 use super::extend::extend;
 use super::generate::generate;
-use super::queue::{PathNeeds, PathQueue};
+use super::queue::PathQueue;
 use super::scatter::scatter;
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
@@ -17,8 +16,8 @@ use crate::math::WIDTH;
 /// finished before the next: memory stays bounded however rays split.
 pub(super) const CHUNK: usize = 1024;
 
-/// An arena for each depth, reset when the queue it holds is done with.
-pub(super) type Arenas = [Bump];
+/// An arena for each depth, opened anew when the queue it holds is done with.
+pub(super) type Arenas = [Arena];
 
 /// Traces the samples of a wave: their radiances are in `worker.radiance` afterwards. Gives the samples' weights, one by
 /// one, to `weight`, where the filter has any.
@@ -29,9 +28,8 @@ pub(super) fn run_wave<T: Tier>(
     mut weight: impl FnMut(usize, T::Real),
 ) {
     let (arena, deeper) = arenas.split_first_mut().expect("an arena for the camera rays");
-    arena.reset();
     worker.radiance.reset(wave.len());
-    let (paths, weights) = generate::<T>(worker.frame, wave, arena);
+    let (paths, weights) = generate::<T>(worker.frame, wave, &arena.open());
     worker.rays.camera += paths.len as u64;
     for (slot, &w) in weights.iter().enumerate().take(wave.len()) {
         weight(slot, w);
@@ -62,25 +60,24 @@ fn run_chunk<T: Tier>(
     arenas: &mut Arenas,
 ) {
     let (arena, deeper) = arenas.split_first_mut().expect("an arena for every depth");
-    arena.reset();
+    let room = arena.open();
     let scene = worker.frame.scene;
     let apex = if depth == 0 { worker.frame.apex } else { None };
-    let hits = extend(worker, paths, (first, n), apex, arena);
+    let hits = extend(worker, paths, (first, n), apex, &room);
     background(worker, paths, first, &hits);
-    let surfaces = SurfaceQueue::evaluate::<T::Wide>(scene, paths, first, &hits, arena);
+    let surfaces = SurfaceQueue::evaluate::<T::Wide>(scene, paths, first, &hits, &room);
     if scene.requirements.glow {
         glow(worker, &surfaces);
     }
     if scene.requirements.lights {
-        connect(worker, &surfaces, arena);
+        connect(worker, &surfaces, &room);
     }
     let children = scene.requirements.children();
     if depth == scene.settings.max_depth || children == 0 {
         return;
     }
     let scattering: usize = surfaces.by_scatter.iter().map(|list| list.len()).sum();
-    let needs = PathNeeds { t_min: false, ..worker.frame.path_needs() };
-    let mut next = PathQueue::new(arena, scattering * children + WIDTH, needs);
-    scatter(worker, wave, depth, paths, &surfaces, &mut next);
+    let mut next = PathQueue::new(&room, scattering * children + WIDTH, worker.frame.secondary_needs());
+    scatter(worker, wave, depth, paths, &surfaces, &mut next, &room);
     run_depth(worker, wave, depth + 1, &next, deeper);
 }

@@ -1,11 +1,12 @@
 //! Secondary rays: mirrored, refracted, scattered; one function a kind of material.
 
+use super::arena::Room;
 use super::medium::{Media, NO_BODY, OUTSIDE, enter, found_inside, innermost, leave, material_of_body};
 use super::offset::offset_along;
 use super::queue::{PathLanes, PathQueue, Rows, gather as column_rows, list_lanes};
 use super::surface_queue::SurfaceQueue;
 use super::wave::{WaveSamples, Worker};
-use crate::geometry::{entries, gather3};
+use crate::geometry::gather3;
 use crate::intersect::Tier;
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH, eight};
 use crate::sampling::{ScatterDraw, bounce, child_branch, cosine_hemisphere, to_frame};
@@ -31,7 +32,8 @@ struct Lanes<L: Lane> {
     lanes: u32,
 }
 
-/// Queues all secondary rays of the surfaces.
+/// Queues all secondary rays of the surfaces: those that are refracted after all others, since packets of both kinds would
+/// have little in common.
 pub(super) fn scatter<T: Tier>(
     worker: &mut Worker<T>,
     wave: WaveSamples,
@@ -39,7 +41,10 @@ pub(super) fn scatter<T: Tier>(
     paths: &PathQueue<T::Real>,
     surfaces: &SurfaceQueue<T::Real>,
     next: &mut PathQueue<T::Real>,
+    room: &Room,
 ) {
+    let refracting = surfaces.by_scatter[Scatter::Dielectric as usize].len();
+    let mut through = PathQueue::new(room, refracting + WIDTH, worker.frame.secondary_needs());
     for kind in Scatter::ALL {
         let list = &surfaces.by_scatter[kind as usize];
         for at in (0..list.len()).step_by(WIDTH) {
@@ -48,11 +53,12 @@ pub(super) fn scatter<T: Tier>(
             match kind {
                 Scatter::Absorb => {}
                 Scatter::Metal => mirror(worker, &s, next),
-                Scatter::Dielectric => dielectric(worker, &s, next),
+                Scatter::Dielectric => dielectric(worker, &s, (next, &mut through)),
                 Scatter::Diffuse => diffuse(worker, &s, wave, depth, next),
             }
         }
     }
+    next.append(&through);
 }
 
 fn gather<T: Tier>(
@@ -66,9 +72,8 @@ fn gather<T: Tier>(
     let materials = rows.of(surfaces.material);
     let tint = gather3::<T::Wide>(&scene.materials.tint, &materials);
     let weight = surfaces.throughput.gather::<T::Wide>(rows).scale(tint);
-    let inside = rows.of(surfaces.from_inside);
-    let from = rows.of(surfaces.path);
-    let inside = (0..WIDTH).map(|i| inside[i] << i).sum();
+    let inside = T::Wide::from_bits(wide::u32x8::new(rows.of(surfaces.from_inside)));
+    let from = Rows::new(rows.of(surfaces.path));
     let bright = weight.max_component().ge(T::Wide::constant(scene.settings.min_throughput));
     Lanes {
         point: surfaces.point.gather(rows),
@@ -79,9 +84,9 @@ fn gather<T: Tier>(
         weight,
         bodies: if surfaces.body.is_empty() { [NO_BODY; WIDTH] } else { rows.of(surfaces.body) },
         slot: rows.of(surfaces.slot),
-        media: if paths.medium.is_empty() { [OUTSIDE; WIDTH] } else { entries(paths.medium, &from) },
-        branch: if paths.branch.is_empty() { [0; WIDTH] } else { entries(paths.branch, &from) },
-        from_inside: Mask::from_bits(inside),
+        media: if paths.medium.is_empty() { [OUTSIDE; WIDTH] } else { from.of(paths.medium) },
+        branch: if paths.branch.is_empty() { [0; WIDTH] } else { from.of(paths.branch) },
+        from_inside: inside.gt(T::Wide::zero()),
         lanes: lanes & bright.bits(),
     }
 }
@@ -109,7 +114,7 @@ impl<L: Lane> Lanes<L> {
             throughput: weight,
             slot: self.slot,
             medium: self.media,
-            branch: self.branch.map(|parent| child_branch(parent, which)),
+            branch: eight(|i| child_branch(self.branch[i], which)),
         }
     }
 }
@@ -127,22 +132,22 @@ fn mirror<T: Tier>(worker: &mut Worker<T>, s: &Lanes<T::Wide>, next: &mut PathQu
 }
 
 /// One reflected and one refracted ray, weighted by Fresnel's formulas; only the first where all is reflected.
-fn dielectric<T: Tier>(worker: &mut Worker<T>, s: &Lanes<T::Wide>, next: &mut PathQueue<T::Real>) {
+fn dielectric<T: Tier>(
+    worker: &mut Worker<T>,
+    s: &Lanes<T::Wide>,
+    (back_queue, through_queue): (&mut PathQueue<T::Real>, &mut PathQueue<T::Real>),
+) {
     let scene = worker.frame.scene;
     let least = T::Wide::constant(scene.settings.min_throughput);
-    let mut through = PathLanes { medium: beyond(s), ..s.leaving(s.direction, s.weight, Side::Other) };
-    let inside = s.from_inside.bits();
-    let near = eight(|i| match (s.media[i], inside >> i & 1) {
-        (state, 0) => state,
-        (state, _) => found_inside(state, s.bodies[i]),
-    });
+    let (near, beyond) = media_around(s);
+    let mut through = PathLanes { medium: beyond, ..s.leaving(s.direction, s.weight, Side::Other) };
     let eta = refraction_index::<T>(worker, &through.medium) / refraction_index::<T>(worker, &near);
     let reflectance = fresnel_dielectric(s.direction.dot(s.shading_normal), eta);
 
     let reflected = s.weight * reflectance;
     let lanes = s.lanes & reflected.max_component().ge(least).bits();
     let back = PathLanes { medium: near, ..s.leaving(s.mirrored(), reflected, Side::Same) };
-    next.push(&back, lanes);
+    back_queue.push(&back, lanes);
     worker.rays.reflected += u64::from(lanes.count_ones());
 
     let (direction, total) = refract(s.direction, s.shading_normal, eta);
@@ -151,29 +156,41 @@ fn dielectric<T: Tier>(worker: &mut Worker<T>, s: &Lanes<T::Wide>, next: &mut Pa
     let beyond = direction.dot(s.geometric_normal).lt(T::Wide::zero());
     through.direction = Vec3::select(beyond, direction, s.direction);
     let lanes = s.lanes & !total.bits() & through.throughput.max_component().ge(least).bits();
-    next.push(&through, lanes);
+    through_queue.push(&through, lanes);
     worker.rays.refracted += u64::from(lanes.count_ones());
 }
 
-/// The dielectrics around the refracted rays: one more on the way in, one less on the way out.
-fn beyond<L: Lane>(s: &Lanes<L>) -> [Media; WIDTH] {
+/// The dielectrics around the reflected and the refracted rays: one more on the way in, one less on the way out.
+#[inline(always)]
+fn media_around<L: Lane>(s: &Lanes<L>) -> ([Media; WIDTH], [Media; WIDTH]) {
     let inside = s.from_inside.bits();
-    eight(|i| {
-        let (state, body) = (s.media[i], s.bodies[i]);
-        if inside >> i & 1 != 0 { leave(state, body) } else { enter(state, body) }
-    })
+    let around = |i: usize| match (s.media[i], s.bodies[i]) {
+        (state, body) if inside >> i & 1 != 0 => (found_inside(state, body), leave(state, body)),
+        (state, body) => (state, enter(state, body)),
+    };
+    // Neighbours mostly come through the same: then one of them tells of all.
+    let are_alike = s.media == [s.media[0]; WIDTH] && s.bodies == [s.bodies[0]; WIDTH];
+    if are_alike && (inside == 0 || inside == L::Mask::splat(true).bits()) {
+        let (near, beyond) = around(0);
+        return ([near; WIDTH], [beyond; WIDTH]);
+    }
+    let each = eight(around);
+    (eight(|i| each[i].0), eight(|i| each[i].1))
 }
 
 /// Index of refraction of the innermost dielectric; 1 outside of all.
+#[inline(always)]
 fn refraction_index<T: Tier>(worker: &Worker<T>, states: &[Media; WIDTH]) -> T::Wide {
     let scene = worker.frame.scene;
-    T::Wide::from_fn(|i| {
+    let index = |i: usize| {
         let index = match innermost(states[i]) {
             NO_BODY => 1.0,
             body => scene.materials.ior[material_of_body(&scene.geometry, body) as usize],
         };
         <T::Real as crate::math::Real>::from_f32(index)
-    })
+    };
+    let innermost = eight(|i| innermost(states[i]));
+    if innermost == [innermost[0]; WIDTH] { T::Wide::splat(index(0)) } else { T::Wide::from_fn(index) }
 }
 
 /// One ray into the hemisphere, by the cosine: the density cancels the cosine and pi of the diffuse lobe.

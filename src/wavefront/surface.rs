@@ -36,6 +36,13 @@ pub(crate) struct SurfaceLanes<L> {
     pub(crate) uv: (L, L),
 }
 
+/// What of surfaces is asked for beside points and geometric normals, in whose place the other stands if not.
+#[derive(Clone, Copy)]
+pub(super) struct Wanted {
+    pub(super) shading_normal: bool,
+    pub(super) uv: bool,
+}
+
 /// Lanes of `f64`, which all of this is evaluated in.
 pub(super) trait Double: Lane<Scalar = f64, Double = Self> {}
 impl<D: Lane<Scalar = f64, Double = D>> Double for D {}
@@ -46,6 +53,7 @@ fn roundoffs<L: Lane>(n: u32) -> L {
 }
 
 impl<L: Lane> HitLanes<L> {
+    #[inline(always)]
     fn widen(&self) -> HitLanes<L::Double> {
         HitLanes {
             origin: self.origin.widen(),
@@ -71,13 +79,18 @@ impl<L: Lane> SurfaceLanes<L> {
         }
     }
     /// Rounds: one roundoff a coordinate, one for the addition of the offset, one for slack.
-    fn narrow(s: SurfaceLanes<L::Double>) -> Self {
+    #[inline(always)]
+    fn narrow(s: SurfaceLanes<L::Double>, wanted: Wanted) -> Self {
         let point = Vec3::<L>::narrow(s.point);
+        let geometric_normal = Vec3::narrow(s.geometric_normal);
         Self {
             error: L::narrow(s.error) + point.abs().max_component() * roundoffs(3),
             point,
-            geometric_normal: Vec3::narrow(s.geometric_normal),
-            shading_normal: Vec3::narrow(s.shading_normal),
+            geometric_normal,
+            shading_normal: match wanted.shading_normal {
+                true => Vec3::narrow(s.shading_normal),
+                false => geometric_normal,
+            },
             uv: (L::narrow(s.uv.0), L::narrow(s.uv.1)),
         }
     }
@@ -85,18 +98,40 @@ impl<L: Lane> SurfaceLanes<L> {
 
 /// The surfaces that rays met, all of one kind.
 pub(crate) fn evaluate<L: Lane>(g: &Geometry, kind: PrimKind, hit: &HitLanes<L>) -> SurfaceLanes<L> {
-    let hit = hit.widen();
+    evaluate_wanted(g, kind, hit, Wanted { shading_normal: true, uv: true })
+}
+
+/// The same where not all is wanted. In line, as is what it is made of: hits and surfaces that are handed over in memory wait
+/// there, since they are written and read in pieces of other sizes.
+#[inline(always)]
+pub(super) fn evaluate_wanted<L: Lane>(
+    g: &Geometry,
+    kind: PrimKind,
+    hit: &HitLanes<L>,
+    wanted: Wanted,
+) -> SurfaceLanes<L> {
     if g.instances.is_empty() || hit.instance == [0; WIDTH] {
-        return SurfaceLanes::narrow(shape::evaluate(g, kind, &hit).0);
+        return SurfaceLanes::narrow(shape::evaluate(g, kind, &hit.widen(), wanted).0, wanted);
     }
+    through_instances(g, kind, hit, wanted)
+}
+
+#[inline(never)]
+fn through_instances<L: Lane>(
+    g: &Geometry,
+    kind: PrimKind,
+    hit: &HitLanes<L>,
+    wanted: Wanted,
+) -> SurfaceLanes<L> {
+    let hit = hit.widen();
     let placed = Placement::gather(g, &hit.instance);
     let origin = placed.to_local.point(hit.origin);
     let local = HitLanes { origin, direction: placed.to_local.direction(hit.direction), ..hit };
-    let (surface, size) = shape::evaluate(g, kind, &local);
+    let (surface, size) = shape::evaluate(g, kind, &local, wanted);
     let seen_through = (0..WIDTH).map(|i| u32::from(hit.instance[i] != 0) << i).sum();
     // Lanes without instance are what they are alone, to the bit.
     let world = placed.to_world::<L>(&surface, size);
-    SurfaceLanes::narrow(SurfaceLanes::select(Mask::from_bits(seen_through), world, surface))
+    SurfaceLanes::narrow(SurfaceLanes::select(Mask::from_bits(seen_through), world, surface), wanted)
 }
 
 #[cfg(test)]

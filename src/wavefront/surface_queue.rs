@@ -1,19 +1,20 @@
 //! Surfaces that paths met, evaluated: what lights and secondary rays are computed from.
 
-use bumpalo::Bump;
+use wide::f32x8;
 
+use super::arena::{List, Room, padded};
 use super::contact::Met;
 use super::extend::{Hits, KINDS};
-use super::queue::{Column3, PathQueue, Rows, column, gather, list_lanes, store_eight, words};
+use super::queue::{Column3, PathQueue, Rows, gather, list_lanes, store_eight, words};
 use super::surface::{HitLanes, SurfaceLanes};
 use crate::geometry::{NO_MATERIAL, entries, gather3};
 use crate::intersect::{PrimId, PrimKind};
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
-use crate::scene::{NO_TEXTURE, Requirements, Scatter, Scene, sample_texture};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight, three};
+use crate::scene::{NO_TEXTURE, Requirements, Scatter, Scene, sample_eight, sample_texture};
 
 /// One row for each path that hit something, in the order of primitive kinds.
 ///
-/// **Shape:** padded columns; in the padding stand surfaces that some row before had, so lanes need no care but masks.
+/// **Shape:** padded columns; in the padding stands anything, but for rows of other columns, which are there.
 pub(super) struct SurfaceQueue<'a, R> {
     pub(super) len: usize,
     pub(super) point: Column3<'a, R>,
@@ -34,29 +35,29 @@ pub(super) struct SurfaceQueue<'a, R> {
     /// What the surface bounds, see [`super::medium`]; empty where the scene has no dielectrics.
     pub(super) body: &'a mut [u32],
     /// Rows by what becomes of rays there.
-    pub(super) by_scatter: [bumpalo::collections::Vec<'a, u32>; 4],
+    pub(super) by_scatter: [List<'a>; 4],
 }
 
 impl<'a, R: Real> SurfaceQueue<'a, R> {
-    fn new(arena: &'a Bump, capacity: usize, needs: &Requirements) -> Self {
+    fn new(room: &Room<'a>, capacity: usize, needs: &Requirements) -> Self {
         // Each kind of primitive may end in a packet that is not full.
         let n = capacity + WIDTH;
         let listed = if needs.children() == 0 { 0 } else { capacity };
-        let list = || bumpalo::collections::Vec::with_capacity_in(listed, arena);
+        let list = || room.list(listed);
         Self {
             len: 0,
-            point: Column3::new(arena, n),
-            error: column(arena, n),
-            geometric_normal: Column3::new(arena, n),
-            shading_normal: needs.shading_normals.then(|| Column3::new(arena, n)),
-            direction: Column3::new(arena, n),
-            throughput: Column3::new(arena, n),
-            diffuse: needs.textures.then(|| Column3::new(arena, n)),
-            slot: column(arena, n),
-            material: column(arena, n),
-            path: column(arena, n),
-            from_inside: column(arena, n),
-            body: column(arena, if needs.scatters(Scatter::Dielectric) { n } else { 0 }),
+            point: Column3::new(room, n),
+            error: room.column(n),
+            geometric_normal: Column3::new(room, n),
+            shading_normal: needs.shading_normals.then(|| Column3::new(room, n)),
+            direction: Column3::new(room, n),
+            throughput: Column3::new(room, n),
+            diffuse: needs.textures.then(|| Column3::new(room, n)),
+            slot: room.column(n),
+            material: room.column(n),
+            path: room.column(n),
+            from_inside: room.column(n),
+            body: room.column(if needs.scatters(Scatter::Dielectric) { n } else { 0 }),
             by_scatter: [list(), list(), list(), list()],
         }
     }
@@ -67,10 +68,10 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
         queue: &PathQueue<R>,
         first: usize,
         hits: &Hits<R>,
-        arena: &'a Bump,
+        room: &Room<'a>,
     ) -> Self {
         let capacity = hits.by_kind.iter().map(|list| list.len()).sum();
-        let mut surfaces = Self::new(arena, capacity, &scene.requirements);
+        let mut surfaces = Self::new(room, capacity, &scene.requirements);
         for (kind, list) in KINDS.into_iter().zip(&hits.by_kind) {
             for at in (0..list.len()).step_by(WIDTH) {
                 let (rows, lanes) = list_lanes(list, at);
@@ -81,6 +82,9 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
                 surfaces.sort_by_scatter(&met.scatter, lanes.count_ones() as usize);
             }
         }
+        let padding = surfaces.len..padded(surfaces.len);
+        surfaces.material[padding.clone()].fill(0);
+        surfaces.slot[padding].fill(0);
         surfaces
     }
 
@@ -123,14 +127,19 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
     /// Keeps so many of the rows just written, and notes those whose material sends rays on.
     #[inline(always)]
     fn sort_by_scatter(&mut self, scatter: &[Scatter; WIDTH], count: usize) {
-        if *scatter != [Scatter::Absorb; WIDTH] {
-            for (k, &scatter) in scatter.iter().enumerate().take(count) {
-                if scatter != Scatter::Absorb {
-                    self.by_scatter[scatter as usize].push((self.len + k) as u32);
-                }
+        let len = self.len as u32;
+        self.len += count;
+        if *scatter == [scatter[0]; WIDTH] {
+            if scatter[0] != Scatter::Absorb {
+                self.by_scatter[scatter[0] as usize].extend(&eight(|k| len + k as u32), count);
+            }
+            return;
+        }
+        for (row, &scatter) in (len..).zip(scatter.iter().take(count)) {
+            if scatter != Scatter::Absorb {
+                self.by_scatter[scatter as usize].push(row);
             }
         }
-        self.len += count;
     }
 
     /// The lanes from `at` on that hold rows.
@@ -192,7 +201,10 @@ pub(super) fn gather_hits<L: Lane>(
         t: gather(hits.t, rows),
         u: gather(hits.u, rows),
         v: gather(hits.v, rows),
-        row: rows.map(|row| PrimId(hits.prim[row]).row() as u32),
+        row: {
+            let prims = rows.of(hits.prim);
+            eight(|i| PrimId(prims[i]).row() as u32)
+        },
         instance: if hits.instance.is_empty() { [0; WIDTH] } else { rows.of(hits.instance) },
     }
 }
@@ -219,11 +231,23 @@ fn towards<L: Lane>(shading: Vec3<L>, geometric: Vec3<L>, direction: Vec3<L>) ->
 
 /// Texture colours; white where a material has no texture.
 pub(super) fn texture_color<L: Lane>(scene: &Scene, materials: &[u32; WIDTH], (u, v): (L, L)) -> Vec3<L> {
-    let of = |i: usize| match scene.materials.texture[materials[i] as usize] {
-        NO_TEXTURE => [1.0; 3],
-        row => sample_texture(&scene.textures[row as usize], [u.get(i).to_f32(), v.get(i).to_f32()]),
+    let rows = entries(&scene.materials.texture, materials);
+    let place = |x: L| f32x8::new(eight(|i| x.get(i).to_f32()));
+    let uv @ (u, v) = (place(u), place(v));
+    if rows == [NO_TEXTURE; WIDTH] {
+        return Vec3::splat_f32([1.0; 3]);
+    }
+    let color: Vec3<f32x8> = match rows == [rows[0]; WIDTH] {
+        true => sample_eight(&scene.textures[rows[0] as usize], uv),
+        false => {
+            let each = eight(|i| match rows[i] {
+                NO_TEXTURE => [1.0; 3],
+                row => sample_texture(&scene.textures[row as usize], [u.get(i), v.get(i)]),
+            });
+            let [x, y, z] = three(|c| f32x8::new(eight(|i| each[i][c])));
+            Vec3 { x, y, z }
+        }
     };
-    let colors: [[f32; 3]; WIDTH] = std::array::from_fn(|i| of(i.min(L::WIDTH - 1)));
-    let channel = |c: usize| L::from_fn(|i| <L::Scalar as Real>::from_f32(colors[i][c]));
-    Vec3::new(channel(0), channel(1), channel(2))
+    let [x, y, z] = [color.x, color.y, color.z].map(|channel| L::load_f32(&channel.to_array()));
+    Vec3 { x, y, z }
 }

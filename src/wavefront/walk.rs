@@ -1,7 +1,6 @@
 //! Paths followed by one ray each, refracted wherever they can be: what `verify` judges, through the stages that render.
 
-use bumpalo::Bump;
-
+use super::arena::{Arena, Room};
 use super::extend::extend;
 use super::medium::{Media, NO_BODY, OUTSIDE, row_of};
 use super::queue::{Column3, PathLanes, PathQueue};
@@ -55,10 +54,9 @@ pub(crate) fn walk<T: Tier>(
         medium: OUTSIDE,
     };
     let mut walkers: Vec<_> = paths.iter().enumerate().map(start).collect();
-    let mut arena = Bump::new();
+    let mut arena = Arena::default();
     for _ in 0..steps {
-        arena.reset();
-        walkers = step(&mut worker, &walkers, &arena, &mut goes_on);
+        walkers = step(&mut worker, &walkers, &arena.open(), &mut goes_on);
     }
 }
 
@@ -66,22 +64,22 @@ pub(crate) fn walk<T: Tier>(
 fn step<T: Tier>(
     worker: &mut Worker<T>,
     walkers: &[Walker<T::Real>],
-    arena: &Bump,
+    room: &Room,
     goes_on: &mut impl FnMut(usize, Step) -> bool,
 ) -> Vec<Walker<T::Real>> {
     let (scene, needs) = (worker.frame.scene, worker.frame.path_needs());
-    let mut queue = PathQueue::new(arena, walkers.len(), needs);
+    let mut queue = PathQueue::new(room, walkers.len() + WIDTH, needs);
     for (slot, walker) in walkers.iter().enumerate() {
         queue.push(&lanes_of::<T>(walker, slot), 1);
     }
-    let hits = extend(worker, &queue, (0, queue.len), None, arena);
-    for &row in &hits.misses {
+    let hits = extend(worker, &queue, (0, queue.len), None, room);
+    for &row in hits.misses.iter() {
         goes_on(walkers[row as usize].number, Step::Out);
     }
-    let surfaces = SurfaceQueue::evaluate::<T::Wide>(scene, &queue, 0, &hits, arena);
-    let mut next = PathQueue::new(arena, 2 * surfaces.len + WIDTH, needs);
+    let surfaces = SurfaceQueue::evaluate::<T::Wide>(scene, &queue, 0, &hits, room);
+    let mut next = PathQueue::new(room, 2 * surfaces.len + WIDTH, needs);
     let wave = WaveSamples { pixels: &[[0; 2]], first_sample: 0, samples: walkers.len() as u32 };
-    scatter(worker, wave, 0, &queue, &surfaces, &mut next);
+    scatter(worker, wave, 0, &queue, &surfaces, &mut next, room);
     let following = |row: usize| follow(walkers, &surfaces, row, &next, goes_on);
     (0..surfaces.len).filter_map(following).collect()
 }

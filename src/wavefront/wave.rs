@@ -1,5 +1,7 @@
 //! What the stages of one worker share.
 
+use wide::u32x8;
+
 use crate::accel::stream::{Apex, RayStream};
 use crate::film::SampleSums;
 use crate::intersect::Tier;
@@ -64,18 +66,30 @@ impl WaveSamples<'_> {
     pub(super) fn len(&self) -> usize {
         self.pixels.len() * self.samples as usize
     }
-    /// Pixels and sample numbers of the slots from `at` on; the last pixel stands in beyond the end.
+    /// Pixels and sample numbers of the slots from `at` on, by column; the last pixel stands in beyond the end.
     #[inline(always)]
-    pub(super) fn eight_slots(&self, at: usize) -> [([u32; 2], u32); WIDTH] {
-        let (mut pixel, mut sample) = (at % self.pixels.len(), at / self.pixels.len());
-        eight(|_| {
-            let slot = (self.pixels[pixel], self.first_sample + sample as u32);
+    pub(super) fn eight_slots(&self, at: usize) -> [u32x8; 3] {
+        let (pixel, sample) = (at % self.pixels.len(), self.first_sample + (at / self.pixels.len()) as u32);
+        match self.pixels[pixel..].first_chunk::<WIDTH>() {
+            Some(run) => {
+                [u32x8::new(eight(|i| run[i][0])), u32x8::new(eight(|i| run[i][1])), u32x8::splat(sample)]
+            }
+            None => self.slots_around(pixel, sample),
+        }
+    }
+
+    /// The same where the pixels end and begin again.
+    #[inline(never)]
+    fn slots_around(&self, mut pixel: usize, mut sample: u32) -> [u32x8; 3] {
+        let slots = eight(|_| {
+            let slot = (self.pixels[pixel], sample);
             pixel += 1;
             if pixel == self.pixels.len() {
                 (pixel, sample) = (0, sample + 1);
             }
             slot
-        })
+        });
+        [eight(|i| slots[i].0[0]), eight(|i| slots[i].0[1]), eight(|i| slots[i].1)].map(u32x8::new)
     }
     /// Pixel and sample number of a slot.
     #[inline(always)]
@@ -112,6 +126,10 @@ impl<'a> Frame<'a> {
             branch: r.scatters(Scatter::Diffuse),
             t_min: self.scene.camera.near > 0.0,
         }
+    }
+    /// What paths beyond the first surface need.
+    pub(super) fn secondary_needs(&self) -> PathNeeds {
+        PathNeeds { t_min: false, ..self.path_needs() }
     }
 }
 

@@ -1,14 +1,13 @@
 //! One thread's scratch: waves in, weighted samples out.
 
-use bumpalo::Bump;
-
 use super::aov::look;
+use super::arena::Arena;
 use super::run::run_wave;
 use super::wave::{Frame, RayCounts, WaveCounts, WaveSamples, Worker};
 use crate::accel::stream::RayStream;
 use crate::film::{AovSample, SampleSums};
 use crate::intersect::Tier;
-use crate::math::Real;
+use crate::math::{Real, WIDTH};
 
 /// Bytes that a full queue with all its columns hardly exceeds; those that stay untouched cost nothing.
 const ARENA: usize = 1 << 20;
@@ -18,7 +17,7 @@ const USUAL: usize = 16;
 /// One thread's scratch.
 pub(super) struct WaveRunner<'a, T: Tier> {
     worker: Worker<'a, T>,
-    arenas: Vec<Bump>,
+    arenas: Vec<Arena>,
     weights: Vec<f32>,
     samples: u64,
     nan_samples: u64,
@@ -30,14 +29,14 @@ impl<'a, T: Tier> WaveRunner<'a, T> {
     }
 
     /// The same with arenas of another one, whose memory the system has already given.
-    pub(super) fn with_arenas(frame: &'a Frame<'a>, mut arenas: Vec<Bump>) -> Self {
+    pub(super) fn with_arenas(frame: &'a Frame<'a>, mut arenas: Vec<Arena>) -> Self {
         let scene = frame.scene;
         // One for the camera rays, one for each depth.
         let depths =
             if scene.requirements.children() == 0 { 1 } else { scene.settings.max_depth as usize + 1 };
         while arenas.len() <= depths {
             let deep = arenas.len() > USUAL;
-            arenas.push(if deep { Bump::new() } else { Bump::with_capacity(ARENA) });
+            arenas.push(if deep { Arena::default() } else { Arena::with_capacity(ARENA) });
         }
         Self {
             worker: Worker {
@@ -54,7 +53,7 @@ impl<'a, T: Tier> WaveRunner<'a, T> {
     }
 
     /// The arenas, for another one.
-    pub(super) fn into_arenas(self) -> Vec<Bump> {
+    pub(super) fn into_arenas(self) -> Vec<Arena> {
         self.arenas
     }
 
@@ -67,10 +66,11 @@ impl<'a, T: Tier> WaveRunner<'a, T> {
         run_wave(&mut self.worker, wave, &mut self.arenas, |slot, w: T::Real| weights[slot] = w.to_f32());
         self.samples += wave.len() as u64;
         self.nan_samples += self.worker.radiance.nan_count();
-        for slot in 0..wave.len() {
-            let weight = self.weights[slot];
-            let [r, g, b] = self.worker.radiance.rgb(slot);
-            take(slot, [r * weight, g * weight, b * weight, weight]);
+        for first in (0..wave.len()).step_by(WIDTH) {
+            let [r, g, b] = self.worker.radiance.eight(first);
+            for (i, &weight) in self.weights[first..].iter().take(WIDTH).enumerate() {
+                take(first + i, [r[i] * weight, g[i] * weight, b[i] * weight, weight]);
+            }
         }
     }
 

@@ -78,12 +78,17 @@ impl<R: Real> RayColumns<'_, R> {
     where
         R: Stored<L>,
     {
-        let (o, d) = (&mut rays.origin, &mut rays.direction);
+        let (o, d, end) = (&mut rays.origin, &mut rays.direction, at + WIDTH);
+        let is_short = |[x, y, z]: &[&[R]; 3]| x.len() < end || y.len() < end || z.len() < end;
+        if is_short(&self.origin) || is_short(&self.direction) {
+            *rays = self.load(at);
+            return;
+        }
         for (lane, column) in [&mut o.x, &mut o.y, &mut o.z].into_iter().zip(self.origin) {
-            *lane = load(column, at);
+            *lane = R::lanes(&column[at..end]);
         }
         for (lane, column) in [&mut d.x, &mut d.y, &mut d.z].into_iter().zip(self.direction) {
-            *lane = load(column, at);
+            *lane = R::lanes(&column[at..end]);
         }
         rays.t_min = self.t_min.load(at);
         rays.t_max = self.t_max_at(at);

@@ -255,6 +255,18 @@ impl<L: Lane> Chord<L> {
     }
 }
 
+/// Lanes that start outside of the side and go away from the axis, as most rays do that left it: as [`solve_rounded`] finds it
+/// where nothing is settled, their chord ends at zero or before.
+#[inline(always)]
+fn leaves<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> L::Mask {
+    let (axis, f, d, zero) = (c.to - c.from, ray.origin - c.from, ray.direction, L::zero());
+    let axis2 = axis.length_squared();
+    let f_across = f - axis * (f.dot(axis) / axis2);
+    let d_across = d - axis * (d.dot(axis) / axis2);
+    let is_outside = (f_across.length_squared() - c.radius * c.radius).gt(zero);
+    f_across.dot(d_across).ge(zero) & is_outside & ray.t_min.ge(zero)
+}
+
 /// The same in `f64`, for the lanes that [`may_hit`].
 #[inline(always)]
 pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> {
@@ -264,8 +276,16 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &Lanes<L>) -
         radius: c.radius.widen(),
         capped: L::widen_mask(c.capped),
     };
+    let wide_ray = ray.widen();
+    let lanes = match doubt::is_exact::<L>() {
+        true => lanes,
+        false => lanes & !L::narrow_mask(leaves(&wide_ray, &wide)),
+    };
+    if !lanes.any() {
+        return LaneHit::none();
+    }
     // Free lanes hold NaN, of which nothing is asked.
-    let (wide_ray, wide_lanes) = (ray.widen(), L::widen_mask(lanes & c.radius.gt(L::zero())));
+    let wide_lanes = L::widen_mask(lanes & c.radius.gt(L::zero()));
     let settle = |open: <L::Double as Lane>::Mask, chord: Chord<L::Double>| {
         let open = open & wide_lanes;
         if !doubt::is_exact::<L>() || !open.any() {

@@ -1,7 +1,8 @@
 //! Cylinders against exact arithmetic, and one test a slip of the textbook form.
 
 use super::oracle::{Cylinder, Part, meetings};
-use super::{Lanes, solve};
+use super::products::Plain;
+use super::{Lanes, leaves, solve, solve_rounded};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
 use crate::intersect::tier::Filtered;
@@ -353,4 +354,26 @@ fn only_hits_beyond_the_limit_are_left_out() {
         left_out += usize::from(!within);
     }
     assert!(left_out > 1_000, "{left_out}");
+}
+
+/// What is not asked of rays that go away would not have been taken.
+#[test]
+fn rays_that_leave_have_no_hit_ahead() {
+    let mut dice = Dice(51);
+    let mut leaving = 0;
+    for _ in 0..50_000 {
+        let (r, c) = [anywhere, at_the_rim, along_the_axis][dice.below(3)](&mut dice);
+        let wide = RayLanes { t_min: 0.0, ..r.widen() };
+        let c =
+            Lanes { from: c.from.widen(), to: c.to.widen(), radius: f64::from(c.radius), capped: c.capped };
+        let meet = |r: &RayLanes<f64>| solve_rounded::<_, Plain>(r, &c, |t| t, |_, chord| chord);
+        let on = wide.origin + wide.direction * [meet(&wide).t, 0.0][dice.below(2)];
+        let r = RayLanes { origin: on, direction: [wide.direction, -wide.direction][dice.below(2)], ..wide };
+        if leaves(&r, &c) {
+            leaving += 1;
+            let hit = meet(&r);
+            assert!(!(hit.mask && hit.t > 0.0), "{hit:?}: {c:?} by {r:?}");
+        }
+    }
+    assert!(leaving > 5_000, "{leaving}");
 }

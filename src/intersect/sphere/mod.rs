@@ -13,7 +13,9 @@ pub mod oracle;
 use crate::intersect::doubt::{self, Doubt};
 use crate::intersect::oracle::number::Unit;
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{Aabb, Lane, Ring, Vec3, fused_dot, gamma, pairs, ring_cross, ring_dot, sign, two_sum};
+use crate::math::{
+    Aabb, Lane, Mask, Ring, Vec3, fused_dot, gamma, pairs, ring_cross, ring_dot, sign, two_sum,
+};
 
 /// Spheres as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -65,8 +67,12 @@ fn solve_rounded<L: Lane>(
 #[inline(always)]
 pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
     // Free lanes hold NaN, of which nothing is asked.
-    let (wide_ray, wide, wide_lanes) =
-        (ray.widen(), s.widen(), L::widen_mask(lanes & s.radius.gt(L::zero())));
+    let (wide_ray, wide) = (ray.widen(), s.widen());
+    let lanes = lanes & !L::narrow_mask(leaves(&wide_ray, &wide));
+    if !lanes.any() {
+        return LaneHit::none();
+    }
+    let wide_lanes = L::widen_mask(lanes & s.radius.gt(L::zero()));
     let settle = |doubt: Doubt<L::Double>| match doubt::is_exact::<L>() {
         true => {
             doubt.settle(wide_lanes, |i| is_met(&wide_ray.get(i), wide.center.get(i), wide.radius.get(i)))
@@ -76,6 +82,15 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -
     let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
     hit.mask = hit.mask & lanes;
     hit
+}
+
+/// Lanes that start outside or at the surface and go away from it, as most rays do that left it: as [`solve_rounded`] finds
+/// them, neither root is positive.
+#[inline(always)]
+fn leaves<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {
+    let (f, zero) = (ray.origin - s.center, L::zero());
+    let is_outside = (f.length_squared() - s.radius * s.radius).ge(zero);
+    f.dot(ray.direction).ge(zero) & is_outside & ray.t_min.ge(zero)
 }
 
 /// Whether the line meets the sphere, exactly; NaN, infinities and rays that go nowhere meet nothing.
@@ -108,6 +123,28 @@ pub fn is_beyond<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>, limit: L) -> L::Mask 
     let reach = s.radius * s.radius + doubt::rounding_at(limit, fused_dot(f, f), fused_dot(d, d));
     let outside = fused_dot(at, at).gt(reach) & fused_dot(at, d).lt(L::zero());
     (outside & ray.t_min.ge(L::zero())) | limit.le(ray.t_min)
+}
+
+/// True only where the sphere is certainly hit, and before `limit`: for rays that ask no more than that.
+///
+/// The ray starts outside, comes nearer, passes the centre at less than the radius, and at its closest has not come to the
+/// limit: all by more than the slack of [`may_hit`]. So the chord is longer than a thousandth of the way, which is more
+/// than rounding makes of where it begins.
+#[inline(always)]
+pub fn surely_hits<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>, limit: L) -> L::Mask {
+    let (f, d, zero) = (ray.origin - s.center, ray.direction, L::zero());
+    let (a, b, ff) = (fused_dot(d, d), fused_dot(f, d), fused_dot(f, f));
+    let (r2, slack) = (s.radius * s.radius, ff * L::constant(f64::from(4.0 * gamma(16))));
+    let passes_inside = (ff * a - b * b).lt((r2 - slack) * a);
+    let comes_nearer = b.lt(zero) & ff.gt(r2 + (slack + slack)) & ray.t_min.le(zero);
+    let in_range = is_moderate(a) & is_moderate(ff) & r2.gt(L::constant(1e-18));
+    passes_inside & comes_nearer & in_range & (-b).lt(limit * a)
+}
+
+/// True far from where products overflow or underflow.
+#[inline(always)]
+fn is_moderate<L: Lane>(x: L) -> L::Mask {
+    x.ge(L::constant(1e-18)) & x.le(L::constant(1e18))
 }
 
 /// False only where the sphere is certainly missed. Written with `not greater`, so that overflow, underflow and NaN

@@ -1,6 +1,6 @@
 //! Spheres against exact arithmetic, and the cases that defeat the textbook quadratic.
 
-use super::{Lanes, oracle, solve};
+use super::{Lanes, leaves, oracle, solve, surely_hits};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
 use crate::intersect::tier::Filtered;
@@ -198,4 +198,54 @@ fn only_hits_beyond_the_limit_are_left_out() {
         left_out += usize::from(!within);
     }
     assert!(left_out > 1_000, "{left_out}");
+}
+
+/// Rays said to hit do, and before what they were asked about.
+#[test]
+fn what_surely_is_hit_is_hit_before_the_limit() {
+    let mut dice = Dice(37);
+    let mut sure = [0; 2];
+    for _ in 0..50_000 {
+        let (r, s) = past(&mut dice);
+        let off = [0.0, 10.0, dice.magnitude(-8.0, -1.0)][dice.below(3)];
+        let hit = Filtered::sphere(&r, &s);
+        let limit = if hit.mask { hit.t * (1.0 + off) } else { [1e3, f64::INFINITY][dice.below(2)] };
+        if surely_hits(&r, &s, limit) {
+            sure[0] += 1;
+            assert!(hit.mask && hit.t > 0.0 && hit.t < limit, "{hit:?} by {limit}: {s:?} by {r:?}");
+        }
+        let narrow = |v: Vec3<f64>| Vec3::<f32>::narrow(v);
+        let r = RayLanes {
+            origin: narrow(r.origin),
+            direction: narrow(r.direction),
+            t_min: 0.0f32,
+            t_max: f32::INFINITY,
+        };
+        let s = Lanes { center: narrow(s.center), radius: s.radius as f32 };
+        let hit = Filtered::sphere(&r, &s);
+        let limit = if hit.mask { hit.t * (1.0 + off as f32) } else { f32::INFINITY };
+        if surely_hits(&r, &s, limit) {
+            sure[1] += 1;
+            assert!(hit.mask && hit.t > 0.0 && hit.t < limit, "{hit:?} by {limit}: {s:?} by {r:?}");
+        }
+    }
+    assert!(sure.iter().all(|&n| n > 1_000), "{sure:?}");
+}
+
+/// What is not asked of rays that go away would not have been taken.
+#[test]
+fn rays_that_leave_have_no_hit_ahead() {
+    let mut dice = Dice(38);
+    let mut leaving = 0;
+    for _ in 0..50_000 {
+        let (r, s) = past(&mut dice);
+        let on = r.origin + r.direction * [solve(&r, &s).t, 0.0][dice.below(2)];
+        let r = RayLanes { origin: on, direction: [r.direction, -r.direction][dice.below(2)], ..r };
+        if leaves(&r, &s) {
+            leaving += 1;
+            let hit = solve(&r, &s);
+            assert!(!(hit.mask && hit.t > 0.0), "{hit:?}: {s:?} by {r:?}");
+        }
+    }
+    assert!(leaving > 5_000, "{leaving}");
 }

@@ -21,6 +21,8 @@ const EDGE_ROUNDOFFS: f64 = 32.0;
 const ALONG_ROUNDOFFS: f64 = 16.0;
 /// Times the range along the ray and `E / D`: 3, and a third more.
 const WEIGHTS_OFF: f64 = 4.0;
+/// What share the area across the ray has of the squared reach where the point in the plane is known to a few roundoffs.
+const STEEP: f64 = 1e-4;
 /// Edge functions below say nothing: what products with them lose to underflow is no longer small.
 const LEAST_EDGE: f64 = 1e-18;
 
@@ -33,6 +35,10 @@ pub struct Glimpse<L: Lane> {
     pub near: L,
     /// No `t` of a hit is above; infinity there.
     pub far: L,
+    /// Lanes whose line certainly meets the triangle, and not nearly along its plane.
+    pub(super) is_steep: L::Mask,
+    /// The largest coordinate of the corners relative to the origin.
+    pub(super) reach: L,
 }
 
 impl<L: Lane> Glimpse<L> {
@@ -58,7 +64,9 @@ impl<L: Lane> Glimpse<L> {
         let in_range = share.abs().ge(tiny) & (far - near).is_finite();
         let hits = (least.gt(edge_error) | greatest.lt(-edge_error)) & in_range;
         let unknown = L::constant(f64::INFINITY);
-        Self { inside, near: L::select(hits, near, -unknown), far: L::select(hits, far, unknown) }
+        let is_steep = hits & ((e[0] + e[1]) + e[2]).abs().gt(reach * reach * L::constant(STEEP));
+        let (near, far) = (L::select(hits, near, -unknown), L::select(hits, far, unknown));
+        Self { inside, near, far, is_steep, reach }
     }
 }
 

@@ -20,6 +20,10 @@ use crate::math::{Lane, Mask, Real, Vec3, WIDTH, Wide, eight, three};
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Woop;
 
+/// How high above its plane a ray has to start for the triangle to be behind it for certain, beside the farthest corner and
+/// the normal: thousands of roundoffs of `f64`.
+const LEAST_HEIGHT: f64 = 1e-11;
+
 /// The shear that maps a ray to an axis, and the ray's slabs.
 #[derive(Clone, Copy, Debug)]
 pub struct Shear<L: Lane> {
@@ -126,6 +130,23 @@ impl TriangleTest for Woop {
         let [a, b, c] = three(|k| v[k] - ray.origin);
         let reach = a.abs().max(b.abs()).max(c.abs()).max_component();
         Some(Glimpse::of([shear.sheared(a), shear.sheared(b), shear.sheared(c)], reach, shear.per_z))
+    }
+
+    /// The height above the plane in `f64`, which a ray's start has little of, and on which side the ray goes on. A height that
+    /// rounding could make in what [`refine`] computes says nothing.
+    #[inline(always)]
+    fn is_left<L: Lane>(ray: &RayLanes<L>, seen: &Glimpse<L>, triangle: [[f32; 3]; 3]) -> L::Mask {
+        let [a, b, c] = three(|v| Vec3::<f64>::splat(three(|k| f64::from(triangle[v][k]))));
+        let normal = (b - a).cross(c - a);
+        let size = normal.x.abs() + normal.y.abs() + normal.z.abs();
+        let (zero, wide_zero) = (L::zero(), <L::Double as Lane>::zero());
+        let (a, normal) = (a.get(0), normal.get(0));
+        let height = (ray.origin.widen() - Vec3::splat(a)).dot(Vec3::splat(normal));
+        let least = seen.reach.widen() * <L::Double as Lane>::splat(size * LEAST_HEIGHT);
+        let rises = ray.direction.dot(Vec3::splat(three(|k| <L::Scalar as Real>::from_f64(normal[k]))));
+        let above = L::narrow_mask(height.gt(least)) & rises.gt(zero);
+        let below = L::narrow_mask(height.lt(wide_zero - least)) & rises.lt(zero);
+        (above | below) & seen.is_steep & ray.t_min.ge(zero)
     }
 
     #[inline(always)]

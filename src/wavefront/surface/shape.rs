@@ -1,16 +1,21 @@
 //! The surface of each kind of primitive where a ray met it, in the space that its columns are in.
 
-use super::{Double, HitLanes, SurfaceLanes, roundoffs};
+use super::{Double, HitLanes, SurfaceLanes, Wanted, roundoffs};
 use crate::geometry::{Geometry, entries, gather, gather3};
 use crate::intersect::PrimKind;
 use crate::math::{Vec3, WIDTH, three};
 
 /// The surfaces, and the largest coordinates of their primitives.
 #[inline(always)]
-pub(super) fn evaluate<D: Double>(g: &Geometry, kind: PrimKind, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
+pub(super) fn evaluate<D: Double>(
+    g: &Geometry,
+    kind: PrimKind,
+    hit: &HitLanes<D>,
+    wanted: Wanted,
+) -> (SurfaceLanes<D>, D) {
     match kind {
-        PrimKind::Triangle => triangle(g, hit),
-        PrimKind::Sphere => sphere(g, hit),
+        PrimKind::Triangle => triangle(g, hit, wanted),
+        PrimKind::Sphere => sphere(g, hit, wanted),
         PrimKind::Cylinder => cylinder(g, hit),
         PrimKind::Plane => plane(g, hit),
     }
@@ -20,21 +25,26 @@ pub(super) fn evaluate<D: Double>(g: &Geometry, kind: PrimKind, hit: &HitLanes<D
 ///
 /// **Source:** Pharr, Jakob and Humphreys, 4th ed., 6.8.5: gamma(7) of the sum of magnitudes.
 #[inline(always)]
-fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
+fn triangle<D: Double>(g: &Geometry, hit: &HitLanes<D>, wanted: Wanted) -> (SurfaceLanes<D>, D) {
     let t = &g.triangles;
     let vertex = three(|k| entries(&t.vertex[k], &hit.row));
-    let [p0, p1, p2] = three(|k| gather3::<D>(&t.position, &vertex[k]));
+    // Written out: a closure of this size is called.
+    let [p0, p1, p2] = [
+        gather3::<D>(&t.position, &vertex[0]),
+        gather3::<D>(&t.position, &vertex[1]),
+        gather3::<D>(&t.position, &vertex[2]),
+    ];
     let weights = [D::one() - hit.u - hit.v, hit.u, hit.v];
     let [a, b, c] = [p0 * weights[0], p1 * weights[1], p2 * weights[2]];
     let sizes = (a.abs() + b.abs() + c.abs()).max_component();
     let geometric_normal = (p1 - p0).cross(p2 - p0).normalize();
-    let shading_normal = match t.normal[0].is_empty() {
-        true => geometric_normal,
-        false => smooth_normal(three(|k| gather3::<D>(&t.normal, &vertex[k])), weights, geometric_normal),
+    let shading_normal = match wanted.shading_normal && !t.normal[0].is_empty() {
+        false => geometric_normal,
+        true => smooth_normal(three(|k| gather3::<D>(&t.normal, &vertex[k])), weights, geometric_normal),
     };
-    let uv = match t.uv[0].is_empty() {
-        true => (hit.u, hit.v),
-        false => (blend(&t.uv[0], &vertex, weights), blend(&t.uv[1], &vertex, weights)),
+    let uv = match wanted.uv && !t.uv[0].is_empty() {
+        false => (hit.u, hit.v),
+        true => (blend(&t.uv[0], &vertex, weights), blend(&t.uv[1], &vertex, weights)),
     };
     let error = sizes * roundoffs(7);
     let size = p0.abs().max(p1.abs()).max(p2.abs()).max_component();
@@ -61,7 +71,7 @@ fn smooth_normal<D: Double>([n0, n1, n2]: [Vec3<D>; 3], [w, u, v]: [D; 3], geome
 
 /// The point pulled back to the sphere along its radius.
 #[inline(always)]
-fn sphere<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
+fn sphere<D: Double>(g: &Geometry, hit: &HitLanes<D>, wanted: Wanted) -> (SurfaceLanes<D>, D) {
     let s = &g.spheres;
     let (center, radius) = (gather3::<D>(&s.center, &hit.row), gather::<D>(&s.radius, &hit.row));
     let normal = (hit.origin + hit.direction * hit.t - center).normalize();
@@ -71,7 +81,7 @@ fn sphere<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
         error: size * roundoffs(8),
         geometric_normal: normal,
         shading_normal: normal,
-        uv: octahedral(normal),
+        uv: if wanted.uv { octahedral(normal) } else { (hit.u, hit.v) },
     };
     (surface, size)
 }
