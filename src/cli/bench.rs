@@ -176,7 +176,7 @@ fn scene(
     let compiled = pool.install(|| pipeline::open_bare(&source, options.size))?;
     let stem = source.stem();
     let quality = args.build_quality.into();
-    let subject = pool.install(|| Subject::new(stem, compiled, view, quality)).ok_or_else(|| {
+    let subject = pool.install(|| Subject::with_quality(stem, compiled, view, quality)).ok_or_else(|| {
         CliError::new(Exit::Scene, format!("{source}: nothing to measure: there is nothing but planes"))
     })?;
     let peer_scenes = peers.scenes(&subject, options.tier, pool.current_num_threads());

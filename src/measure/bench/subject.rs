@@ -48,8 +48,13 @@ pub struct Subject {
 }
 
 impl Subject {
+    /// [`Subject::with_quality`] as trees are usually built.
+    pub fn new(name: String, scene: Scene, view: View) -> Option<Self> {
+        Self::with_quality(name, scene, view, Quality::default())
+    }
+
     /// Takes a scene apart, scales it, and builds its tree anew. `None` where nothing but planes is left.
-    pub fn new(name: String, scene: Scene, view: View, quality: Quality) -> Option<Self> {
+    pub fn with_quality(name: String, scene: Scene, view: View, quality: Quality) -> Option<Self> {
         let bounds = scene.accel.bounds();
         if bounds.is_empty() {
             return None;

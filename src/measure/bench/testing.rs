@@ -4,7 +4,6 @@ use super::engine::Engine;
 use super::rays::{HitColumns, RayColumns};
 use super::subject::Subject;
 use super::view::View;
-use crate::accel::Quality;
 use crate::describe::builtin;
 use crate::scene::Scene;
 
@@ -12,7 +11,7 @@ use crate::scene::Scene;
 pub(super) fn subject(name: &str, view: View) -> Subject {
     let mut description = builtin(name).unwrap().unwrap();
     description.render.size = [64, 64];
-    Subject::new(name.into(), Scene::compile(&description).unwrap(), view, Quality::default()).unwrap()
+    Subject::new(name.into(), Scene::compile(&description).unwrap(), view).unwrap()
 }
 
 /// Answers as another engine, but one ray differently.
