@@ -1,11 +1,10 @@
-//! What is counted. Scenes and rays are those of `octray bench`, made outside of the count; in the default tier, and a few in
-//! the others, so that none of the three gets slower beside the others unnoticed.
+//! What is counted. Scenes and rays are those of `octray bench`, in its default tier, and made outside of the count.
 
 use std::hint::black_box;
 
 use octray::accel::{Accel, Quality};
 use octray::describe::builtin;
-use octray::intersect::{Exact, Fast, Tier, TierName, Watertight};
+use octray::intersect::{TierName, Watertight};
 use octray::measure::bench::{Answers, Class, Octray, Subject, View, agree, ask, ray_set};
 use octray::scene::Scene;
 use octray::wavefront::{RenderOptions, render};
@@ -19,53 +18,41 @@ const TRIANGLES: u64 = 20_000;
 const SPP: u32 = 2;
 
 pub(crate) enum Case {
-    /// Rays of a class through a scene, in a tier.
-    Rays(&'static str, Class, TierName),
+    /// Rays of a class through a scene.
+    Rays(&'static str, Class),
     /// A tree over a terrain.
     Tree(Quality),
-    /// A scene as a picture, in a tier.
-    Picture(&'static str, TierName),
+    /// A scene as a picture.
+    Picture(&'static str),
 }
 
 pub(crate) fn all() -> Vec<Case> {
-    let rays =
-        |tier| SCENES.into_iter().flat_map(move |scene| CLASSES.map(|class| Case::Rays(scene, class, tier)));
-    let pictures = |tier| ["seed", "glass"].map(|scene| Case::Picture(scene, tier));
-    let others = [TierName::Fast, TierName::Exact].into_iter().flat_map(|tier| {
-        let rays =
-            rays(tier).filter(|case| matches!(case, Case::Rays(_, Class::Primary | Class::Diffuse, _)));
-        rays.chain(pictures(tier))
-    });
+    let rays = SCENES.into_iter().flat_map(|scene| CLASSES.map(|class| Case::Rays(scene, class)));
     let trees = [Quality::Fast, Quality::Balanced, Quality::High].map(Case::Tree);
-    rays(TierName::Watertight).chain(trees).chain(pictures(TierName::Watertight)).chain(others).collect()
+    let pictures = ["seed", "glass"].map(Case::Picture);
+    rays.chain(trees).chain(pictures).collect()
 }
 
 impl Case {
     pub(crate) fn name(&self) -> String {
-        let of = |tier: &TierName| match tier {
-            TierName::Watertight => String::new(),
-            tier => format!(" {}", tier.name()),
-        };
         match self {
-            Self::Rays(scene, class, tier) => format!("{scene} {class}{}", of(tier)),
+            Self::Rays(scene, class) => format!("{scene} {class}"),
             Self::Tree(quality) => format!("tree {}", quality.name()),
-            Self::Picture(scene, tier) => format!("picture {scene}{}", of(tier)),
+            Self::Picture(scene) => format!("picture {scene}"),
         }
     }
 
     /// The function whose instructions count; without one those of the whole process do.
     pub(crate) fn counted_function(&self) -> Option<&'static str> {
         // Pictures are rendered by threads of their own, which that function is not on the stack of.
-        (!matches!(self, Self::Picture(..))).then_some("*counted_work*")
+        (!matches!(self, Self::Picture(_))).then_some("*counted_work*")
     }
 
     pub(crate) fn run(&self) {
         match *self {
-            Self::Rays(scene, class, TierName::Fast) => rays::<Fast>(scene, class),
-            Self::Rays(scene, class, TierName::Watertight) => rays::<Watertight>(scene, class),
-            Self::Rays(scene, class, TierName::Exact) => rays::<Exact>(scene, class),
+            Self::Rays(scene, class) => rays(scene, class),
             Self::Tree(quality) => tree(quality),
-            Self::Picture(scene, tier) => picture(scene, tier),
+            Self::Picture(scene) => picture(scene),
         }
     }
 }
@@ -84,23 +71,20 @@ fn counted(mut work: impl FnMut() + Send) {
     alone.install(|| counted_work(&mut work));
 }
 
-fn compiled(name: &str, spp: u32, tier: TierName) -> Scene {
+fn compiled(name: &str, spp: u32) -> Scene {
     let mut scene = builtin(name).expect("a built-in scene").expect("a built-in scene");
     (scene.render.size, scene.render.spp) = (SIZE, spp);
-    let mut scene = Scene::compile(&scene).expect("built-in scenes compile");
-    scene.settings.tier = tier;
-    scene
+    Scene::compile(&scene).expect("built-in scenes compile")
 }
 
-fn rays<T: Tier>(scene: &str, class: Class) {
-    let subject =
-        Subject::new(scene.into(), compiled(scene, 1, T::NAME), View::Scene).expect("it holds primitives");
+fn rays(scene: &str, class: Class) {
+    let subject = Subject::new(scene.into(), compiled(scene, 1), View::Scene).expect("it holds primitives");
     let (rays, question) = (ray_set(&subject, class, SIZE), class.question());
-    let engines = [Octray::<T>::new(&subject.accel), Octray::plain(&subject.accel)];
+    let engines = [Octray::<Watertight>::new(&subject.accel), Octray::plain(&subject.accel)];
     let [mut answers, mut plain] = [(); 2].map(|()| Answers::new(question, rays.len()));
     counted(|| ask(&engines[0], question, black_box(&rays), &mut answers));
     ask(&engines[1], question, &rays, &mut plain);
-    agree("the counted one", &answers, &plain, T::NAME).expect("the answers of single rays");
+    agree("the counted one", &answers, &plain, TierName::Watertight).expect("the answers of single rays");
     assert!(plain.count() * 50 > rays.len(), "nothing but misses");
 }
 
@@ -112,8 +96,8 @@ fn tree(quality: Quality) {
     assert!(references as u64 >= geometry.triangles.len() as u64, "primitives are missing");
 }
 
-fn picture(name: &str, tier: TierName) {
-    let scene = compiled(name, SPP, tier);
+fn picture(name: &str) {
+    let scene = compiled(name, SPP);
     let options = RenderOptions { threads: 1, ..Default::default() };
     let (film, _) = render(black_box(&scene), &options).expect("nothing cancels it");
     assert!(film.pixels.iter().any(|&pixel| pixel != film.pixels[0]), "a picture of one colour");

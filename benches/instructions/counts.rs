@@ -45,7 +45,7 @@ impl Counts {
     /// **Errors:** the cases that take too many instructions, or that have no committed count; with another compiler
     /// none, as it may be its doing.
     pub(crate) fn guard(&self, committed: &Self) -> Result<(), String> {
-        println!("{:<28}{:>14}{:>14}{:>8}", "instructions of", "committed", "now", "ratio");
+        println!("{:<24}{:>14}{:>14}{:>8}", "instructions of", "committed", "now", "ratio");
         let beyond: Vec<&str> =
             self.instructions.iter().filter_map(|(name, &now)| committed.told(name, now)).collect();
         let Some(first) = beyond.first() else { return Ok(()) };
@@ -66,7 +66,7 @@ impl Counts {
     /// Prints a line; gives the name back if the count is too high.
     fn told<'a>(&self, name: &'a str, now: u64) -> Option<&'a str> {
         let Some(&committed) = self.instructions.get(name) else {
-            println!("{name:<28}{:>14}{now:>14}", "none");
+            println!("{name:<24}{:>14}{now:>14}", "none");
             return Some(name);
         };
         let ratio = now as f64 / committed as f64;
@@ -75,7 +75,7 @@ impl Counts {
             r if r < 1.0 / LIMIT => "  less: renew the counts",
             _ => "",
         };
-        println!("{name:<28}{committed:>14}{now:>14}{ratio:>8.3}{remark}");
+        println!("{name:<24}{committed:>14}{now:>14}{ratio:>8.3}{remark}");
         (ratio > LIMIT).then_some(name)
     }
 }

@@ -122,9 +122,12 @@ fuzz_target!(|input: Input| {
         let breaches = verify_trial(&trial, tier, bounds).breaches();
         assert!(breaches.is_empty(), "{breaches:#?}");
     };
-    check(TierName::Exact, &Bounds { wrong: zero, differing: zero, ..Bounds::default() });
     let points = |(from, to, _): &(Point, Point, bool)| from.iter().chain(to).all(|x| x.is_of_the_size());
     let ordinary = input.things.iter().all(Thing::is_of_the_size) && input.rays.iter().all(points);
+    // Of a cylinder 1e10 times as long as the way to its cap `f64` does not know when a ray gets there.
+    let known = ordinary || !trial.shapes.iter().any(|shape| matches!(shape, Shape::Cylinder { .. }));
+    let wrong = if known { zero } else { None };
+    check(TierName::Exact, &Bounds { wrong, differing: zero, ..Bounds::default() });
     let gross = if ordinary { zero } else { None };
     check(TierName::Watertight, &Bounds { gross, differing: zero, ..Bounds::default() });
     if ordinary && size.abs() < 20 && length.abs() < 20 {
