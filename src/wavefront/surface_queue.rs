@@ -34,15 +34,17 @@ pub(super) struct SurfaceQueue<'a, R> {
     pub(super) from_inside: &'a mut [u32],
     /// What the surface bounds, see [`super::medium`]; empty where the scene has no dielectrics.
     pub(super) body: &'a mut [u32],
-    /// Rows by what becomes of rays there.
+    /// Rows by what becomes of rays there; empty where nothing does, whatever the materials are.
     pub(super) by_scatter: [List<'a>; 4],
+    is_sorted: bool,
 }
 
 impl<'a, R: Real> SurfaceQueue<'a, R> {
     fn new(room: &Room<'a>, capacity: usize, needs: &Requirements) -> Self {
         // Each kind of primitive may end in a packet that is not full.
         let n = capacity + WIDTH;
-        let listed = if needs.children() == 0 { 0 } else { capacity };
+        let is_sorted = needs.children() > 0;
+        let listed = if is_sorted { capacity } else { 0 };
         let list = || room.list(listed);
         Self {
             len: 0,
@@ -59,6 +61,7 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
             from_inside: room.column(n),
             body: room.column(if needs.scatters(Scatter::Dielectric) { n } else { 0 }),
             by_scatter: [list(), list(), list(), list()],
+            is_sorted,
         }
     }
 
@@ -129,6 +132,9 @@ impl<'a, R: Real> SurfaceQueue<'a, R> {
     fn sort_by_scatter(&mut self, scatter: &[Scatter; WIDTH], count: usize) {
         let len = self.len as u32;
         self.len += count;
+        if !self.is_sorted {
+            return;
+        }
         if *scatter == [scatter[0]; WIDTH] {
             if scatter[0] != Scatter::Absorb {
                 self.by_scatter[scatter[0] as usize].extend(&eight(|k| len + k as u32), count);
