@@ -74,7 +74,7 @@ impl Descend for RaysByPrimitive {
     }
     #[inline(always)]
     fn settle<T: Tier, Q: Query<T::Wide>>(rays: TestRays<'_, T>, query: &mut Q, pending: &mut Pending<T>) {
-        pending.settle(&rays, query);
+        pending.settle(rays.ray, query);
     }
 }
 

@@ -7,7 +7,7 @@ use super::block::{RaysByPrimitive, Walk};
 use super::leaf::{Lanes, TestRays, Testable};
 use super::query::Query;
 use crate::intersect::triangle::Glimpse;
-use crate::intersect::{LaneHit, Tier, TriangleTest};
+use crate::intersect::{LaneHit, RayLanes, Tier, TriangleTest};
 use crate::math::{BitLane, Lane, Mask, Vec3, three};
 
 /// The hits of a packet whose distance waits. The query of the packet holds a bound from above in its place.
@@ -37,8 +37,8 @@ impl<T: Tier> Pending<T> {
         rays: &TestRays<T>,
         query: &mut Q,
     ) -> bool {
-        let Some(seen) = block.glimpse::<T, RaysByPrimitive>(i, rays) else {
-            self.settle(rays, query);
+        let Some(mut seen) = block.glimpse::<T, RaysByPrimitive>(i, rays) else {
+            self.settle(rays.ray, query);
             let mut needed = block.needed::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
             let mut accepted = false;
             if Q::ANY {
@@ -48,33 +48,46 @@ impl<T: Tier> Pending<T> {
             }
             return needed.any() && block.ask::<T, RaysByPrimitive, Q>(i, needed, rays, query) || accepted;
         };
-        let (certain, mut unclear) = self.sort(lanes & seen.inside, &seen, rays.ray.t_min, query.limit());
-        let mut accepted = certain.any();
+        seen.inside = lanes & seen.inside;
+        let (certain, mut unclear) = self.sort(&seen, rays.ray.t_min, query.limit());
         if let Some(corners) = block.corners_of_triangles().filter(|_| unclear.any()) {
             unclear =
                 unclear & !T::Triangle::is_left(rays.ray, &seen, three(|v| three(|k| corners[v][k][i])));
         }
+        let mut accepted = false;
         if unclear.any() {
-            self.settle(rays, query);
-            accepted |= block.ask::<T, RaysByPrimitive, Q>(i, unclear, rays, query);
+            self.settle(rays.ray, query);
+            accepted = block.ask::<T, RaysByPrimitive, Q>(i, unclear, rays, query);
         }
+        self.take((block, i), certain, &seen, query) | accepted
+    }
+
+    /// Takes lanes that certainly hit primitive `i` of a block, nearer than anything so far; true if there are any.
+    #[inline(always)]
+    pub(super) fn take<B: Testable, Q: Query<T::Wide>>(
+        &mut self,
+        (block, i): (&B, usize),
+        certain: Lanes<T>,
+        seen: &Glimpse<T::Wide>,
+        query: &mut Q,
+    ) -> bool {
         query.take(certain, seen.far, BitLane::splat(block.ids()[i]));
         if let Some(corners) = block.corners_of_triangles().filter(|_| !Q::ANY) {
             self.put(certain, seen.near, three(|v| RaysByPrimitive::vec3(&corners[v], i)));
         }
-        accepted
+        certain.any()
     }
 
     /// Of lanes that may be hit, those that certainly are, nearer than anything so far; and those that bounds say too
     /// little about. The others need nothing.
     #[inline(always)]
-    fn sort(
+    pub(super) fn sort(
         &self,
-        lanes: Lanes<T>,
         seen: &Glimpse<T::Wide>,
         t_min: T::Wide,
         limit: T::Wide,
     ) -> (Lanes<T>, Lanes<T>) {
+        let lanes = seen.inside;
         let nearest = Lane::select(self.lanes, self.near, limit);
         let out = seen.near.gt(limit) | seen.far.le(t_min);
         let certain = lanes & seen.far.lt(nearest) & seen.near.gt(t_min) & !out;
@@ -85,9 +98,11 @@ impl<T: Tier> Pending<T> {
     #[inline(always)]
     fn put(&mut self, lanes: Lanes<T>, near: T::Wide, corners: [Vec3<T::Wide>; 3]) {
         self.lanes = self.lanes | lanes;
-        self.near = Lane::select(lanes, near, self.near);
+        self.near.put(lanes, near);
         for (kept, corner) in self.corners.iter_mut().zip(corners) {
-            *kept = Vec3::select(lanes, corner, *kept);
+            kept.x.put(lanes, corner.x);
+            kept.y.put(lanes, corner.y);
+            kept.z.put(lanes, corner.z);
         }
     }
 
@@ -97,12 +112,12 @@ impl<T: Tier> Pending<T> {
 
     /// Finds the distances that wait.
     #[inline(always)]
-    pub(super) fn settle(&mut self, rays: &TestRays<T>, query: &mut impl Query<T::Wide>) {
+    pub(super) fn settle(&mut self, ray: &RayLanes<T::Wide>, query: &mut impl Query<T::Wide>) {
         if !self.lanes.any() {
             return;
         }
-        let hit = T::Triangle::settle(rays.ray, self.corners);
-        debug_assert!(self.is_within_bounds(&hit, query.limit()), "{:?} {:?}", rays.ray, self.corners);
+        let hit = T::Triangle::settle(ray, self.corners);
+        debug_assert!(self.is_within_bounds(&hit, query.limit()), "{ray:?} {:?}", self.corners);
         query.settle(self.lanes, &hit);
         self.lanes = Mask::splat(false);
     }

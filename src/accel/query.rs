@@ -119,16 +119,16 @@ impl<L: Lane> Query<L> for Closest<L> {
     }
     #[inline(always)]
     fn take(&mut self, lanes: L::Mask, t: L, ids: L::Bits) {
-        self.t = L::select(lanes, t, self.t);
+        self.t.put(lanes, t);
         self.prim = L::select_bits(lanes, ids, self.prim);
         self.instance = L::select_bits(lanes, L::Bits::splat(self.current_instance), self.instance);
         self.limit = self.t;
     }
     #[inline(always)]
     fn settle(&mut self, lanes: L::Mask, hit: &LaneHit<L>) {
-        self.t = L::select(lanes, hit.t, self.t);
-        self.u = L::select(lanes, hit.u, self.u);
-        self.v = L::select(lanes, hit.v, self.v);
+        self.t.put(lanes, hit.t);
+        self.u.put(lanes, hit.u);
+        self.v.put(lanes, hit.v);
         self.limit = self.t;
     }
     #[inline(always)]
@@ -224,7 +224,7 @@ impl<L: Lane> Query<L> for AnyHit<L> {
     #[inline(always)]
     fn take(&mut self, lanes: L::Mask, _: L, _: L::Bits) {
         self.hit = self.hit | lanes;
-        self.limit = L::select(lanes, L::constant(f64::NEG_INFINITY), self.limit);
+        self.limit.put(lanes, L::constant(f64::NEG_INFINITY));
     }
     #[inline(always)]
     fn settle(&mut self, _: L::Mask, _: &LaneHit<L>) {}

@@ -90,6 +90,22 @@ pub(super) fn reserve<T>(to: &mut Vec<T>, more: usize) {
     }
 }
 
+/// Asks for the memory of rows of a column from `at` on, there or not.
+#[inline(always)]
+pub(super) fn prefetch_rows<R>(column: &[R], at: usize, rows: usize) {
+    #[cfg(target_arch = "x86_64")]
+    {
+        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+        let first = column.as_ptr().wrapping_add(at).cast::<i8>();
+        for line in (0..rows * size_of::<R>()).step_by(64) {
+            // SAFETY: as above.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(line)) };
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (column, at, rows);
+}
+
 /// Stacks of many rays, one after the other: references and where the ray enters them, the next to visit last.
 #[derive(Debug)]
 pub(super) struct Stacks {

@@ -126,6 +126,13 @@ pub trait Lane:
     /// `yes` where the mask is true, `no` elsewhere.
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
 
+    /// Takes `yes` where the mask is true. For what is read again soon: [`Lane::select`] to where one of both came from becomes
+    /// a masked store, which a load waits for until it has reached the cache.
+    #[inline(always)]
+    fn put(&mut self, mask: Self::Mask, yes: Self) {
+        *self = Self::select(mask, yes, *self);
+    }
+
     /// `yes` where the mask is true, `no` elsewhere, for words.
     fn select_bits(mask: Self::Mask, yes: Self::Bits, no: Self::Bits) -> Self::Bits;
 

@@ -178,6 +178,10 @@ macro_rules! wide_lane {
         fn select(mask: $mask, yes: Self, no: Self) -> Self {
             mask.0.select(yes, no)
         }
+        #[inline(always)]
+        fn put(&mut self, mask: $mask, yes: Self) {
+            *self = (mask.0 & yes) | (!mask.0 & *self);
+        }
     };
 }
 

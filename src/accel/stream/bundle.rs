@@ -13,7 +13,7 @@ use crate::accel::Accel;
 use crate::accel::block::RaysByPrimitive;
 use crate::accel::descend::descend;
 use crate::accel::instance::TreeRoot;
-use crate::accel::leaf::{ForTriangles, PreparedRays, TestRays, with_block};
+use crate::accel::leaf::{ForTriangles, PreparedRays, with_block};
 use crate::accel::node::ChildRef;
 use crate::accel::pending::Pending;
 use crate::accel::query::Query;
@@ -30,11 +30,18 @@ const BUDGET: usize = 8 * WIDTH * WIDTH;
 /// for those, so a bundle of them goes into most instances for a few rays' sake.
 const SCATTERED: usize = 3 * WIDTH * WIDTH;
 
+/// How many entries of the stack may come before the last.
+const CHOICE: usize = 3;
+
 /// What a worker keeps for bundles.
 pub(super) struct Workplace<T: Tier> {
     /// Packets prepared for triangles when first tested, as many meet none; which of them are, as bits.
     prepared: [ForTriangles<T>; WIDTH],
     is_prepared: u32,
+    /// Packets of which distances may wait, as bits.
+    waits: u32,
+    /// True if the last triangles met cover more than the pyramid in some direction: then edges tell more than boxes do.
+    meets_wide: bool,
     /// Lanes of packets that still ask whether they hit anything, as bits.
     asks: [u32; WIDTH],
     /// Pairs of a primitive of a block and a packet.
@@ -51,6 +58,8 @@ impl<T: Tier> Default for Workplace<T> {
         Self {
             prepared: [T::Triangle::prepare(&super::no_rays()); WIDTH],
             is_prepared: 0,
+            waits: 0,
+            meets_wide: false,
             asks: [0; WIDTH],
             pairs: Candidates::default(),
             likely: [(Candidate::default(), 0); room_for(WIDTH)],
@@ -86,7 +95,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         queries: &'a mut [Q],
     ) -> Option<Self> {
         frustum.surround::<T>(rays, apex, tree)?;
-        work.is_prepared = 0;
+        (work.is_prepared, work.waits) = (0, 0);
         let mut bundle = Self { frustum, rays, work, queries, met: 0 };
         (0..rays.len()).for_each(|j| bundle.look(j));
         bundle.frustum.update_reach();
@@ -111,7 +120,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         let base = stacks.bundle.len();
         stacks.bundle.push(single::Entry::new(f32::NEG_INFINITY, ChildRef::node(root)));
         while stacks.bundle.len() > base
-            && let Some(entry) = stacks.bundle.pop()
+            && let Some(entry) = if Q::ANY { stacks.bundle.pop() } else { take_nearest(stacks.bundle, base) }
         {
             let child = entry.child;
             if entry.near > self.frustum.reach {
@@ -136,9 +145,12 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
     fn push_children(&self, accel: &Accel, child: ChildRef, stack: &mut Vec<single::Entry>) {
         let node = &accel.nodes[child.index() as usize];
         let (meets, near) = self.frustum.children(node);
-        let near = near.to_array();
-        for slot in (0..WIDTH).rev().map(|i| i ^ self.frustum.octant) {
-            if meets >> slot & 1 != 0 && !node.child[slot].is_empty() {
+        let (near, octant) = (near.to_array(), self.frustum.octant);
+        // Which come next is guessed from the branches: looked up, they would be waited for.
+        for slot in (0..WIDTH).rev().map(|i| (i ^ octant) % WIDTH) {
+            // Boxes of empty children are met by none.
+            if meets >> slot & 1 != 0 {
+                debug_assert!(!node.child[slot].is_empty());
                 unchecked::prefetch(accel, node.child[slot]);
                 stack.push(single::Entry::new(near[slot], node.child[slot]));
             }
@@ -180,12 +192,11 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
 
     /// Finds all distances that wait.
     fn settle_all(&mut self) {
-        let mut left = if Q::ANY { 0 } else { self.work.is_prepared };
+        let mut left = if Q::ANY { 0 } else { std::mem::take(&mut self.work.waits) };
         while left != 0 {
             let j = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
-            self.work.pending[j].settle(&rays, &mut self.queries[j]);
+            self.work.pending[j].settle(&self.rays[j], &mut self.queries[j]);
         }
     }
 
@@ -198,4 +209,17 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             self.work.asks[j] = limit.gt(T::Wide::zero()).bits();
         }
     }
+}
+
+/// Takes what starts nearest among the last few. Hits found early spare what lies behind them; to look at all would cost more.
+#[inline(always)]
+fn take_nearest(stack: &mut Vec<single::Entry>, base: usize) -> Option<single::Entry> {
+    let mut last = stack.pop()?;
+    let from = base.max(stack.len().saturating_sub(CHOICE));
+    for entry in &mut stack[from..] {
+        if entry.near < last.near {
+            std::mem::swap(entry, &mut last);
+        }
+    }
+    Some(last)
 }

@@ -1,6 +1,7 @@
 //! Rays and hits as columns: what streams of rays are asked from and answered to.
 
 use crate::accel::query::Closest;
+use crate::accel::unchecked::prefetch_rows;
 use crate::intersect::RayLanes;
 use crate::math::{BitLane, Lane, Mask, Real, Stored, Vec3, WIDTH};
 
@@ -69,6 +70,17 @@ impl<R: Real> RayColumns<'_, R> {
                 L::select(L::Mask::from_bits((1 << count) - 1), t_max, L::constant(f64::NEG_INFINITY))
             }
             _ => t_max,
+        }
+    }
+
+    /// Asks for the memory of so many rays from row `at` on, which may be beyond the end.
+    #[inline(always)]
+    pub(super) fn prefetch(&self, at: usize, rows: usize) {
+        self.origin.iter().chain(&self.direction).for_each(|column| prefetch_rows(column, at, rows));
+        for bound in [&self.t_min, &self.t_max] {
+            if let Bound::Each(column) = bound {
+                prefetch_rows(column, at, rows);
+            }
         }
     }
 

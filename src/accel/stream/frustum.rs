@@ -28,7 +28,7 @@ use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, Vec3, WIDTH};
 pub use apex::Apex;
 pub(super) use edges::Edges;
-use edges::Middle;
+use edges::{Eight, Middle};
 pub(super) use focus::focus;
 use slopes::{Slopes, greatest};
 use view::{Boxes, View};
@@ -53,10 +53,12 @@ pub(super) struct Frustum {
     /// In the middle of all, and the slopes above relative to it.
     middle: Middle,
     about_middle: Slopes,
-    /// Slopes of rays about the middle, by packet.
-    rays: [[f32x8; 2]; WIDTH],
+    /// Rays, by packet.
+    rays: [Eight; WIDTH],
     /// Where rays start along `z`, by packet; with an apex to come, 0.
     start: [f32x8; WIDTH],
+    /// True if edges tell enough of where rays meet triangles: what they tell is relative to the apex, so rays have to start there.
+    pub(super) tells_meetings: bool,
     /// Length of the directions along `z`, by packet.
     along: [f32x8; WIDTH],
     /// Where along `z` the first ray starts.
@@ -80,7 +82,8 @@ impl Default for Frustum {
             packets: none,
             middle: Middle::default(),
             about_middle: none,
-            rays: [[f32x8::ZERO; 2]; WIDTH],
+            rays: [Eight { slopes: [f32x8::ZERO; 2], per_z: f32x8::ONE }; WIDTH],
+            tells_meetings: false,
             start: [f32x8::ZERO; WIDTH],
             along: [f32x8::ONE; WIDTH],
             first: f32x8::ZERO,
@@ -179,15 +182,16 @@ impl Frustum {
         (outside.le(pad) & lo.z.le(reach)).bits()
     }
 
-    /// Edges of eight triangles, given by their corners.
+    /// Edges of eight triangles, given by their corners; sharper for rays of packets that may meet them ([`Self::packets`]) if
+    /// told how they are seen.
     #[inline(always)]
-    pub(super) fn edges(&self, corners: [Vec3<f32x8>; 3]) -> Edges {
+    pub(super) fn edges(&self, sight: Option<&Sight>, corners: [Vec3<f32x8>; 3]) -> Edges {
         // Parallel rays see all at one distance.
         let corners = match self.view.lean {
             Some(_) => corners.map(|corner| Vec3 { z: f32x8::ONE, ..corner }),
             None => corners,
         };
-        Edges::of(corners, &self.middle)
+        Edges::of(corners, sight.map(|sight| sight.slopes.width()), &self.middle)
     }
 
     /// Of eight triangles, those that rays may meet: told by their edges, not by their boxes.
@@ -198,9 +202,9 @@ impl Frustum {
         edges.met(&self.about_middle, f32x8::splat(reach))
     }
 
-    /// Slopes of the rays of packet `j`, about the middle.
+    /// The rays of packet `j`.
     #[inline(always)]
-    pub(super) fn slopes_of(&self, j: usize) -> &[f32x8; 2] {
+    pub(super) fn eight(&self, j: usize) -> &Eight {
         &self.rays[j]
     }
 

@@ -232,6 +232,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             queries[j].begin(self.rays[j].t_max);
             ask_planes(self.accel, &self.rays[j], &mut queries[j]);
         }
+        rays.prefetch(first + BUNDLE * WIDTH, BUNDLE * WIDTH);
         let queries = &mut queries[..packets.len()];
         let apex = if guesses { self.guess_apex(queries.len()) } else { known };
         let whole = apex.is_some_and(|apex| self.trace_bundle(apex, queries));

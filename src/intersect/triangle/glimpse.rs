@@ -13,7 +13,7 @@
 //!
 //! Where a product may underflow or a quotient overflow, nothing is certain.
 
-use crate::math::{Lane, Real};
+use crate::math::{Lane, Mask, Real};
 
 /// Roundoffs in an edge function.
 const EDGE_ROUNDOFFS: f64 = 32.0;
@@ -42,6 +42,12 @@ pub struct Glimpse<L: Lane> {
 }
 
 impl<L: Lane> Glimpse<L> {
+    /// Bounds, and nothing about how steeply planes are met.
+    #[inline(always)]
+    pub(crate) fn between(inside: L::Mask, near: L, far: L) -> Self {
+        Self { inside, near, far, is_steep: L::Mask::splat(false), reach: L::zero() }
+    }
+
     /// From the corners relative to the origin, sheared: two coordinates across the ray and one along it; `per_z` is how
     /// much `t` grows along the last.
     #[inline(always)]

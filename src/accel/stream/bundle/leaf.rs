@@ -5,17 +5,20 @@
 //!   eight packets at once;
 //! - what the pairs that are left have in common, the apex, makes the edge functions of a triangle two products a ray
 //!   ([`Edges`]): they sort out most of what misses, and what is met behind the apex;
-//! - what may hit then runs the primitive test: loops that overlap from pair to pair and have little to guess.
+//! - edges also tell of most rays from a camera that they certainly hit, and where within bounds; the others run the
+//!   primitive test: loops that overlap from pair to pair and have little to guess;
+//! - where triangles cover more than the pyramid their boxes tell little, so edges come first.
 
 use wide::f32x8;
 
 use super::super::frustum::{Edges, Sight};
 use super::Bundle;
 use crate::accel::block::RaysByPrimitive;
-use crate::accel::leaf::{BlockVisitor, TestRays, Testable};
+use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
 use crate::accel::query::Query;
+use crate::intersect::triangle::Glimpse;
 use crate::intersect::{Tier, TriangleTest};
-use crate::math::{Mask, three};
+use crate::math::{Lane, Mask, three};
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
     #[inline(always)]
@@ -28,13 +31,27 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
         };
         let corners = three(|v| frustum.view().point(|k| f32x8::new(corners[v][k])));
         let [a, b, c] = corners;
-        let sight = frustum.sight(&[a.min(b).min(c), a.max(b).max(c)]);
+        let boxes = [a.min(b).min(c), a.max(b).max(c)];
+        if self.work.meets_wide {
+            let edges = frustum.edges(None, corners);
+            let met = frustum.triangles(&edges) & there;
+            if met == 0 {
+                return false;
+            }
+            let sight = frustum.sight(&boxes);
+            let met = met & frustum.sees(&sight);
+            self.work.meets_wide = met & !frustum.wide(&sight) == 0;
+            return self.visit_primitives(block, &sight, Some(&edges), met);
+        }
+        let sight = frustum.sight(&boxes);
         let mut met = frustum.sees(&sight) & there;
         if met == 0 {
             return false;
         }
-        let edges = frustum.edges(corners);
-        if met & frustum.wide(&sight) != 0 {
+        let edges = frustum.edges(Some(&sight), corners);
+        let wide = frustum.wide(&sight);
+        self.work.meets_wide = met & !wide == 0;
+        if met & wide != 0 {
             met &= frustum.triangles(&edges);
         }
         self.visit_primitives(block, &sight, Some(&edges), met)
@@ -52,11 +69,8 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         met: u32,
     ) -> bool {
         self.find_pairs(sight, met);
-        let (count, packets) = self.find_likely(block, edges);
-        if edges.is_some() {
-            self.prepare(packets);
-        }
-        let accepted = self.ask_likely(block, count);
+        let count = self.find_likely(block, edges);
+        let accepted = self.ask_likely(block, edges, count);
         let mut left = accepted;
         while left != 0 {
             self.look(left.trailing_zeros() as usize & 7);
@@ -81,17 +95,17 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         }
     }
 
-    /// Sorts out the pairs that may hit; gives how many, and of which packets.
+    /// Sorts out the pairs that may hit; gives how many.
     #[inline(always)]
-    fn find_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>) -> (usize, u32) {
+    fn find_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>) -> usize {
         let work = &mut *self.work;
-        let (mut count, mut packets) = (0, 0);
+        let mut count = 0;
         for k in 0..work.pairs.len() {
             let pair = work.pairs.get(k);
             let (i, j) = (pair.row(), pair.lane());
             let asks = if Q::ANY { work.asks[j] } else { 0xff };
             let lanes = match edges {
-                Some(edges) => edges.may_hit(i, self.frustum.slopes_of(j)),
+                Some(edges) => edges.may_hit(i, self.frustum.eight(j)),
                 // Prepared for nothing: that means nothing but to triangles.
                 None => {
                     let rays = TestRays { ray: &self.rays[j], triangle: &work.prepared[j] };
@@ -99,40 +113,63 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
                 }
             };
             work.likely[count] = (pair, lanes & asks);
-            let is_likely = lanes & asks != 0;
-            count += usize::from(is_likely);
-            packets |= u32::from(is_likely) << j;
+            count += usize::from(lanes & asks != 0);
         }
-        (count, packets)
+        count
     }
 
     /// Puts so many of the likely pairs to the queries; gives the packets that accepted a hit.
     #[inline(always)]
-    fn ask_likely<B: Testable>(&mut self, block: &B, count: usize) -> u32 {
-        let (is_triangles, mut accepted) = (block.corners_of_triangles().is_some(), 0);
+    fn ask_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>, count: usize) -> u32 {
+        let edges_tell = edges.filter(|_| T::Triangle::GLIMPSES && self.frustum.tells_meetings);
+        let mut accepted = 0;
         for k in 0..count {
             let (pair, lanes) = self.work.likely[k];
-            let (i, j) = (pair.row(), pair.lane());
-            let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
-            let mut lanes = Mask::from_bits(lanes);
-            if is_triangles && !T::Triangle::GLIMPSES {
-                lanes = lanes & block.may_hit::<T, RaysByPrimitive>(i, &rays);
-            }
-            let accepts = self.work.pending[j].ask((block, i), lanes, &rays, &mut self.queries[j]);
+            let j = pair.lane();
+            let accepts = match edges_tell {
+                Some(edges) if edges.large >> pair.row() & 1 != 0 => {
+                    self.ask_by_edges((block, pair.row()), edges, j, Mask::from_bits(lanes))
+                }
+                _ => self.ask((block, pair.row()), j, Mask::from_bits(lanes)),
+            };
             accepted |= u32::from(accepts) << j;
         }
         accepted
     }
 
-    /// Prepares packets for triangles.
+    /// Puts lanes of packet `j` that may hit primitive `i` of a block to the query; those of which edges tell enough are not
+    /// tested. True if any was accepted.
     #[inline(always)]
-    fn prepare(&mut self, packets: u32) {
-        let mut left = packets & !self.work.is_prepared;
-        self.work.is_prepared |= packets;
-        while left != 0 {
-            let j = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
+    fn ask_by_edges<B: Testable>(
+        &mut self,
+        (block, i): (&B, usize),
+        edges: &Edges,
+        j: usize,
+        lanes: Lanes<T>,
+    ) -> bool {
+        let seen = edges.meeting(i, self.frustum.eight(j));
+        let [near, far] = [seen.near, seen.far].map(|t| T::Wide::load_f32(&t.to_array()));
+        let seen = Glimpse::between(lanes, near, far);
+        let (t_min, limit) = (self.rays[j].t_min, self.queries[j].limit());
+        let (certain, unclear) = self.work.pending[j].sort(&seen, t_min, limit);
+        let accepts = unclear.any() && self.ask((block, i), j, unclear);
+        self.work.waits |= 1 << j;
+        self.work.pending[j].take((block, i), certain, &seen, &mut self.queries[j]) | accepts
+    }
+
+    /// The same by the primitive test.
+    #[inline(always)]
+    fn ask<B: Testable>(&mut self, (block, i): (&B, usize), j: usize, mut lanes: Lanes<T>) -> bool {
+        let is_triangles = block.corners_of_triangles().is_some();
+        if is_triangles && self.work.is_prepared >> j & 1 == 0 {
+            self.work.is_prepared |= 1 << j;
             self.work.prepared[j] = T::Triangle::prepare(&self.rays[j]);
         }
+        let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
+        if is_triangles && !T::Triangle::GLIMPSES {
+            lanes = lanes & block.may_hit::<T, RaysByPrimitive>(i, &rays);
+        }
+        self.work.waits |= 1 << j;
+        self.work.pending[j].ask((block, i), lanes, &rays, &mut self.queries[j])
     }
 }

@@ -26,7 +26,7 @@ pub(in super::super) fn focus<T: Tier>(packets: &[RayLanes<T::Wide>], tree: Tree
     let mut beam = Beam::default();
     for rays in packets {
         let asked = asked::<T>(rays);
-        let (a, b, _) = slopes(view.direction(narrow::<T>(rays.direction)), asked)?;
+        let (a, b, ..) = slopes(view.direction(narrow::<T>(rays.direction)), asked)?;
         let from = view.direction(narrow::<T>(rays.origin) - Vec3::splat(start));
         beam.add(Mask::from_bits(asked), [a, b], from);
     }

@@ -45,6 +45,11 @@ impl Slopes {
         let one = |s: [f32x8; 2]| [f32x8::splat(s[0].get(i)), f32x8::splat(s[1].get(i))];
         Self { a: one(self.a), b: one(self.b) }
     }
+    /// How much they differ, one way or the other.
+    #[inline(always)]
+    pub(super) fn width(&self) -> f32x8 {
+        Lane::max(self.a[1] - self.a[0], self.b[1] - self.b[0])
+    }
     /// How much those of the first lane differ.
     pub(super) fn widest(&self) -> f32 {
         let wide = |s: [f32x8; 2]| s[1] - s[0];
@@ -57,10 +62,10 @@ impl Slopes {
     }
 }
 
-/// Slopes of directions, and their lengths along `z`. Lanes that are not asked take the slopes of one that is; without
+/// Slopes of directions, their lengths along `z`, and the inverse of that. Lanes that are not asked take the slopes of one that is; without
 /// any, zero.
 #[inline(always)]
-pub(super) fn slopes(d: Vec3<f32x8>, asked: u32) -> Option<(f32x8, f32x8, f32x8)> {
+pub(super) fn slopes(d: Vec3<f32x8>, asked: u32) -> Option<(f32x8, f32x8, f32x8, f32x8)> {
     let most = d.z * f32x8::splat(MAX_SLOPE);
     let fits = d.z.gt(f32x8::ZERO) & d.x.abs().le(most) & d.y.abs().le(most);
     if asked & !fits.bits() != 0 {
@@ -69,9 +74,9 @@ pub(super) fn slopes(d: Vec3<f32x8>, asked: u32) -> Option<(f32x8, f32x8, f32x8)
     let scale = f32x8::ONE / d.z;
     let (a, b) = (d.x * scale, d.y * scale);
     if asked == 0xff {
-        return Some((a, b, d.z));
+        return Some((a, b, d.z, scale));
     }
-    Some((filled(a, asked), filled(b, asked), Lane::select(Mask::from_bits(asked), d.z, f32x8::ONE)))
+    Some((filled(a, asked), filled(b, asked), Lane::select(Mask::from_bits(asked), d.z, f32x8::ONE), scale))
 }
 
 /// The first lane that is asked in place of those that are not; zero without any.

@@ -17,10 +17,20 @@ const APEX_ROUNDOFFS: f64 = 8.0;
 /// quarter more.
 const SIDE_ROUNDOFFS: f64 = 192.0;
 
-/// The same for edge functions, of the product of the largest coordinate and the distance at which rays pass the
-/// corners: a coordinate across is off by 6 roundoffs of the largest, by 14 for an apex that rays pass by, in the triangle
-/// test as here; parallel rays, of slopes up to 1, are seen within 14 as well; an edge function is the sum of two products of two such; and twice that.
-const EDGE_ROUNDOFFS: f64 = 128.0;
+/// The same for edge functions, of the product of the largest coordinate, seen from the apex or from where a ray starts, and
+/// the distance at which rays pass the corners.
+///
+/// The triangle test is off by 32 ([`crate::intersect::triangle`]), and sure beyond as much again. Here a coordinate across is
+/// off by 7 where slopes are up to 1, by 5 more for rays that do not start at the apex; an edge function is the sum of two
+/// products of two such, 48, and 10 for their roundings. The rest is slack.
+const EDGE_ROUNDOFFS: f64 = 144.0;
+/// Where slopes are up to 2, the triangle test may look along another axis, where edge functions are half as large and
+/// distances up to twice as far; coordinates are off by 17.
+const STEEP_EDGE_ROUNDOFFS: f64 = 352.0;
+/// For parallel rays, of the coordinates of the tree.
+const PARALLEL_EDGE_ROUNDOFFS: f64 = 128.0;
+/// What distances across that round to nothing count as, in roundoffs of the distance along.
+const LEAST_ACROSS: f64 = 64.0;
 
 /// What rays pass by an apex behind them counts so many times in edge functions: four for those, and for six times the volume
 /// between apex and triangle, which it changes by its product with the triangle's area vector, sixteen; and a quarter more.
@@ -65,7 +75,7 @@ impl Frustum {
             return None;
         }
         self.packet_reach = [f32::NEG_INFINITY; WIDTH];
-        self.set_pads(2.0 * size, counted)
+        self.set_pads::<T>(2.0 * size, counted, if apex == Apex::Parallel { 0.0 } else { astray })
     }
 
     /// Takes note of where rays start and how they go; gives how far any passes by the apex, and the largest coordinate.
@@ -79,13 +89,16 @@ impl Frustum {
             if asked & !rays.t_min.ge(T::Wide::zero()).bits() != 0 {
                 return None;
             }
-            (a[j], b[j], self.along[j]) = slopes(self.view.direction(self.apex.towards::<T>(rays)), asked)?;
+            let per_z;
+            (a[j], b[j], self.along[j], per_z) =
+                slopes(self.view.direction(self.apex.towards::<T>(rays)), asked)?;
             let from = self.view.direction(narrow::<T>(rays.origin) - Vec3::splat(self.view.eye));
             let (start, by) = self.apex.start::<T>(rays, &self.view, (from, [a[j], b[j]]));
             if let Some(across) = self.view.across(from) {
                 [a[j], b[j]] = across.map(|at| filled(at, asked));
             }
             let asked = Mask::from_bits(asked);
+            self.rays[j].per_z = per_z;
             self.start[j] = Lane::select(asked, start, f32x8::ZERO);
             first = Lane::select(asked, Lane::min(first, start), first);
             astray = Lane::select(asked, Lane::max(astray, by), astray);
@@ -99,7 +112,9 @@ impl Frustum {
         self.first = f32x8::splat(least(first));
         self.set_slopes(Slopes { a: range(a), b: range(b) });
         let [x, y] = self.middle.slopes;
-        self.rays = std::array::from_fn(|j| [a[j] - x, b[j] - y]);
+        for (rays, (a, b)) in self.rays.iter_mut().zip(a.into_iter().zip(b)) {
+            rays.slopes = [a - x, b - y];
+        }
         Some((greatest(astray), size))
     }
 
@@ -113,21 +128,38 @@ impl Frustum {
         (self.all, self.packets, self.middle.slopes) = (all, packets, middle);
         self.about_middle = all.about(middle);
         self.middle.spread = self.about_middle.greatest();
+        self.middle.packet_spread = f32x8::splat(greatest(packets.width()));
         let [x, y, z] = self.view.axes;
         let slopes = self.view.lean.unwrap_or(middle.map(|slope| slope.get(0)));
         let [against_x, against_y] = slopes.map(|slope| usize::from(slope < 0.0));
         self.octant = against_x << x | against_y << y | usize::from(self.view.backward) << z;
     }
 
-    /// Takes the size of coordinates, and by how much more than roundoffs rays pass by the apex; `None` where
-    /// volumes might overflow.
+    /// Takes the size of coordinates, by how much more than roundoffs rays pass by the apex, and by how much in all; `None`
+    /// where volumes might overflow.
     #[inline(always)]
-    fn set_pads(&mut self, size: f32, astray: f32) -> Option<()> {
-        let pad = |roundoffs: f64, more: f32| {
-            f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32 + more)
+    fn set_pads<T: Tier>(&mut self, size: f32, astray: f32, measured: f32) -> Option<()> {
+        let pad =
+            |roundoffs: f64, size: f32| f32x8::splat((f64::from(size) * roundoffs * f32::ROUNDOFF) as f32);
+        self.side_pad = pad(SIDE_ROUNDOFFS, size) + f32x8::splat(astray);
+        self.tells_meetings = matches!(self.apex, Apex::Origin(_));
+        // Twice, as how far is found with an error, too.
+        self.middle.start_off = f32x8::splat(2.0 * measured);
+        let steepest = self.all.greatest().get(0).max(1.0);
+        let roundoffs = match self.view.lean {
+            None if steepest > 1.0 => STEEP_EDGE_ROUNDOFFS,
+            None => EDGE_ROUNDOFFS,
+            Some(_) => PARALLEL_EDGE_ROUNDOFFS,
         };
-        self.side_pad = pad(SIDE_ROUNDOFFS, astray);
-        self.middle.edge_pad = pad(EDGE_ROUNDOFFS, EDGE_STRAYS * astray);
+        let strays = f32x8::splat(EDGE_STRAYS * measured);
+        // Rays of more digits were rounded.
+        self.middle.edge_pad = if self.tells_meetings && T::Real::ROUNDOFF >= f32::ROUNDOFF {
+            [pad(roundoffs, 1.0), pad(roundoffs, steepest), pad(roundoffs, measured) + strays]
+        } else {
+            [f32x8::ZERO, f32x8::ZERO, pad(roundoffs, size) + strays]
+        };
+        self.middle.packet_spread += pad(LEAST_ACROSS, 1.0);
+        self.middle.spread += pad(LEAST_ACROSS, 1.0);
         self.middle.stray =
             if self.view.lean.is_some() { f32x8::splat(f32::INFINITY) } else { self.side_pad };
         (size <= LARGEST).then_some(())

@@ -159,8 +159,8 @@ fn scaled(rays: &mut [Ray], apex: Apex, by: f32) -> Apex {
     }
 }
 
-/// Whether the test of a tier has a ray hit a triangle before its end.
-fn hits<T: Tier>(ray: &Ray, corners: [[f32; 3]; 3]) -> bool {
+/// Where the test of a tier has a ray hit a triangle before its end.
+fn hits<T: Tier>(ray: &Ray, corners: [[f32; 3]; 3]) -> Option<T::Real> {
     let ray = RayLanes::<T::Real> {
         origin: Vec3::splat_f32(ray.origin),
         direction: Vec3::splat_f32(ray.direction),
@@ -168,7 +168,7 @@ fn hits<T: Tier>(ray: &Ray, corners: [[f32; 3]; 3]) -> bool {
         t_max: T::Real::constant(f64::from(ray.t_max)),
     };
     let hit = T::Triangle::test(&ray, &T::Triangle::prepare(&ray), corners.map(Vec3::splat_f32), ray.t_max);
-    hit.mask.any() && hit.t.gt(ray.t_min).any() && hit.t.lt(ray.t_max).any()
+    (hit.mask.any() && hit.t.gt(ray.t_min).any() && hit.t.lt(ray.t_max).any()).then_some(hit.t)
 }
 
 #[test]
@@ -184,13 +184,17 @@ fn edges_tell_of_no_hit_that_it_is_none_and_of_most_misses() {
         let is_plain = triangles.map(|(_, is_plain)| is_plain);
         let triangles = triangles.map(|(corners, _)| corners.map(|p| p.map(|x| x * scale)));
         let corners = three(|v| frustum.view().point(|k| f32x8::from_fn(|i| triangles[i][v][k])));
-        let edges = frustum.edges(corners);
+        let [a, b, c] = corners;
+        let sight = frustum.sight(&[a.min(b).min(c), a.max(b).max(c)]);
+        let edges = frustum.edges((seed % 3 != 0).then_some(&sight), corners);
         let all = frustum.triangles(&edges);
         for (i, corners) in triangles.into_iter().enumerate() {
             for (r, ray) in rays.iter().enumerate() {
-                let may_hit = edges.may_hit(i, frustum.slopes_of(r / WIDTH)) >> (r % WIDTH) & 1 != 0;
-                let told = (may_hit, all >> i & 1 != 0);
-                if hits::<Watertight>(ray, corners) || hits::<Exact>(ray, corners) {
+                // Without its packet near the triangle no ray is asked.
+                let near = frustum.packets(&sight, i) >> (r / WIDTH) & 1 != 0;
+                let may_hit = edges.may_hit(i, frustum.eight(r / WIDTH)) >> (r % WIDTH) & 1 != 0;
+                let told = (near && may_hit, all >> i & 1 != 0);
+                if hits::<Watertight>(ray, corners).is_some() || hits::<Exact>(ray, corners).is_some() {
                     met += 1;
                     assert_eq!(told, (true, true), "{ray:?} {corners:?} {apex:?}, seed {seed}");
                 }
@@ -199,7 +203,8 @@ fn edges_tell_of_no_hit_that_it_is_none_and_of_most_misses() {
                 }
                 let backward = Ray { direction: ray.direction.map(|x| -x), t_max: f32::INFINITY, ..*ray };
                 let forward = Ray { t_max: f32::INFINITY, ..*ray };
-                let count = match (hits::<Exact>(&forward, corners), hits::<Exact>(&backward, corners)) {
+                let count = match [forward, backward].map(|ray| hits::<Exact>(&ray, corners).is_some()).into()
+                {
                     (false, false) => &mut beside,
                     (false, true) if matches!(apex, Apex::Origin(_)) => &mut behind,
                     _ => continue,
@@ -213,6 +218,50 @@ fn edges_tell_of_no_hit_that_it_is_none_and_of_most_misses() {
         met > 50_000 && beside[1] * 20 < beside[0] && behind[1] * 20 < behind[0],
         "{beside:?} {behind:?}"
     );
+}
+
+#[test]
+fn a_meeting_that_edges_tell_is_one_and_within_their_bounds() {
+    let (mut met, mut told, mut narrow) = (0, 0, 0);
+    for seed in 0..20_000 {
+        let dice = &mut Dice(seed);
+        let (mut rays, apex) = beam(dice);
+        let triangles: [_; WIDTH] = std::array::from_fn(|_| triangle(&rays, apex, dice).0);
+        let scale = [1.0, 1e-6, 1e9, 1e-18][dice.below(4)];
+        let apex = scaled(&mut rays, apex, scale);
+        let Some(frustum) = around(&rays, apex, false, scale).filter(|frustum| frustum.tells_meetings) else {
+            continue;
+        };
+        let triangles = triangles.map(|corners| corners.map(|p| p.map(|x| x * scale)));
+        let corners = three(|v| frustum.view().point(|k| f32x8::from_fn(|i| triangles[i][v][k])));
+        let [a, b, c] = corners;
+        let sight = frustum.sight(&[a.min(b).min(c), a.max(b).max(c)]);
+        let edges = frustum.edges((seed % 3 != 0).then_some(&sight), corners);
+        for (i, corners) in triangles.into_iter().enumerate() {
+            for (r, ray) in rays.iter().enumerate() {
+                if frustum.packets(&sight, i) >> (r / WIDTH) & 1 == 0 {
+                    continue;
+                }
+                let seen = edges.meeting(i, frustum.eight(r / WIDTH));
+                let (near, far) = (seen.near.get(r % WIDTH), seen.far.get(r % WIDTH));
+                let endless = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
+                let t = hits::<Watertight>(&endless, corners);
+                met += usize::from(t.is_some());
+                if seen.inside.bits() >> (r % WIDTH) & 1 != 0 {
+                    told += 1;
+                    assert!(
+                        t.is_some_and(|t| near <= t && t <= far),
+                        "{t:?} in {near} to {far}: {ray:?} {corners:?} {apex:?}, seed {seed}"
+                    );
+                    narrow += usize::from(far - near < 1e-4 * far.abs());
+                } else {
+                    assert!(near == f32::NEG_INFINITY && far == f32::INFINITY);
+                }
+            }
+        }
+    }
+    println!("{met} hits, {told} told, {narrow} narrowly");
+    assert!(told * 2 > met && narrow > 10_000, "{narrow} of {told} of {met}");
 }
 
 #[test]
