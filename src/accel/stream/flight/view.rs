@@ -21,8 +21,8 @@ pub(super) struct Side(u32);
 impl Side {
     #[inline(always)]
     fn new([x, y, z]: [u32; 3]) -> Self {
-        let across = u32::from(Node8::ACROSS);
-        Self((x | y << 8 | z << 16) * across | (x | y << 1 | z << 2) << 24)
+        let (backward, octant) = (x | y << 8 | z << 16, x | y << 1 | z << 2);
+        Self((backward * u32::from(Node8::ACROSS)) | (octant << 24))
     }
     #[inline(always)]
     pub(super) fn backward(self) -> [u8; 3] {
