@@ -122,7 +122,11 @@ impl Tiles for Painter<'_> {
     }
 
     fn done(&self, painted: Painted<'_>) {
-        let aovs = aov_bits(self.active.scene.settings.aovs, painted.seen);
+        // Parts with later samples have none; the thread may remember those of a tile before.
+        let aovs = match self.active.samples.start {
+            0 => aov_bits(self.active.scene.settings.aovs, painted.seen),
+            _ => Vec::new(),
+        };
         let nodes = node_major(painted.sums);
         let samples = painted.pixels.len() as u64 * self.active.samples.len() as u64;
         let mut sums = self.active.sums.lock().expect("no thread panics while it stores a tile");
