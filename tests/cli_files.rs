@@ -32,6 +32,19 @@ fn a_missing_folder_is_known_before_rendering() {
     assert_eq!(error.lines().count(), 1, "{error}");
 }
 
+/// The camera's numbers are written last, after all the work.
+#[test]
+fn a_camera_file_that_cannot_be_written_is_known_before_rendering() {
+    let folder = tempfile::tempdir().unwrap();
+    let camera = folder.path().join("a.camera.json");
+    fs::create_dir(&camera).unwrap();
+    let picture = folder.path().join("a.exr");
+    let endless = ["render", "--aovs", "depth", "--spp", "1000000", "-o", text(&picture)];
+    let error = stderr_of(&endless, 1);
+    assert!(error.contains(&format!("cannot write {}", text(&camera))), "{error}");
+    assert!(!picture.exists());
+}
+
 #[test]
 fn a_folder_is_no_output() {
     let folder = tempfile::tempdir().unwrap();

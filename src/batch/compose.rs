@@ -8,7 +8,7 @@ use super::picture::{Picture, PictureFile};
 use crate::film::{
     AovSample, AovSet, BlockNode, Film, Plane, PlaneValues, TileSums, joined, node_places, total,
 };
-use crate::output::{Format, OutputError, camera_json, camera_path, encode};
+use crate::output::{Format, OutputError, camera_json, encode};
 use crate::scene::Scene;
 use crate::wavefront::{Rect, mean, pixels};
 
@@ -109,12 +109,13 @@ pub(super) fn files(
     scene: &Scene,
     film: Film,
 ) -> Result<Vec<(String, Vec<u8>)>, BatchError> {
-    let mut files = Vec::new();
+    let mut files: Vec<(String, Vec<u8>)> = Vec::new();
     for file in &picture.outputs {
         files.push((file.path.clone(), encoded(file, scene, &film)?));
-        if file.camera_json {
+        // Outputs that differ in nothing but their endings have one camera file.
+        let camera = file.camera_path().filter(|camera| files.iter().all(|(path, _)| path != camera));
+        if let Some(path) = camera {
             let camera = camera_json(&scene.camera, scene.settings.size, None);
-            let path = camera_path(file.path.as_ref()).to_string_lossy().into_owned();
             files.push((path, format!("{camera:#}\n").into_bytes()));
         }
     }

@@ -27,6 +27,21 @@ pub(super) fn check(pictures: &[Picture]) -> Result<(), String> {
             return Err(format!("output `{above}` would be a file, and the folder of `{}`", output.path));
         }
     }
+    cameras(pictures)
+}
+
+/// Fails if two pictures have one file for their cameras, as those have that differ in nothing but their endings.
+fn cameras(pictures: &[Picture]) -> Result<(), String> {
+    let mut owners: HashMap<String, &Picture> = HashMap::new();
+    for picture in pictures {
+        for path in picture.outputs.iter().filter_map(|file| file.camera_path()) {
+            let other = owners.insert(path.to_lowercase(), picture);
+            if let Some(other) = other.filter(|other| !std::ptr::eq(*other, picture)) {
+                let [first, second] = [&other.name, &picture.name];
+                return Err(format!("`{path}` would hold the cameras of both {first} and {second}"));
+            }
+        }
+    }
     Ok(())
 }
 

@@ -61,6 +61,9 @@ pub enum BatchError {
     /// A file cannot be written.
     #[error(transparent)]
     Output(#[from] OutputError),
+    /// The program panicked.
+    #[error("a fault of octray, please report it: {0}")]
+    Panicked(String),
     /// Threads cannot be started.
     #[error(transparent)]
     Render(#[from] RenderError),

@@ -8,6 +8,7 @@ use super::assets::Files;
 use super::axis::{Choice, MOST_PICTURES, choices};
 use super::job::{Job, JobCamera, Output, SeedMode};
 use super::keyframes::Track;
+use super::likeness::{Likeness, Numbers};
 use super::pattern::{self, Names};
 use super::picture::{Picture, PictureFile};
 use super::source::Source;
@@ -23,15 +24,16 @@ pub(super) fn pictures(job: &Job, source: &Source, files: &mut Files) -> Result<
     let axes = Axes::of(job).map_err(BatchError::Job)?;
     let common = job.common_sets();
     let count = axes.count().map_err(BatchError::Job)?;
-    let mut pictures = Vec::with_capacity(count);
+    let (mut pictures, mut known) = (Vec::with_capacity(count), Numbers::default());
     for first in (0..count).step_by(AT_A_TIME) {
         let numbers = first..count.min(first + AT_A_TIME);
         let made: Vec<_> =
             numbers.into_par_iter().map(|number| axes.checked(number, job, source, &common)).collect();
         for made in made {
-            let (picture, seen) = made?;
+            let (picture, likeness, seen) = made?;
+            let (scene, shape) = known.of(likeness);
             files.join(seen);
-            pictures.push(picture);
+            pictures.push(Picture { scene, shape, ..picture });
         }
     }
     distinct::check(&pictures).map_err(BatchError::Job)?;
@@ -81,14 +83,14 @@ impl<'a> Axes<'a> {
         })
     }
 
-    /// Picture `number` with what its scene says, and the files of that scene.
+    /// Picture `number` with what its scene says, what that scene is like, and its files.
     fn checked(
         &self,
         number: usize,
         job: &Job,
         source: &Source,
         common: &[String],
-    ) -> Result<(Picture, Files), BatchError> {
+    ) -> Result<(Picture, Option<Likeness>, Files), BatchError> {
         let (frames, cameras) = (self.frames.len(), self.cameras.len());
         let (frame, camera, choice) = (number % frames, number / frames % cameras, number / frames / cameras);
         let picture = self.picture(job, choice, self.cameras[camera], self.frames[frame]);
@@ -103,7 +105,9 @@ impl<'a> Axes<'a> {
         }
         let mut files = Files::default();
         files.see(&scene);
-        Ok((Picture { size: scene.render.size, spp: scene.render.spp, ..picture }, files))
+        let picture = Picture { size: scene.render.size, spp: scene.render.spp, ..picture };
+        let likeness = Likeness::of(&scene, &picture.sets);
+        Ok((picture, likeness, files))
     }
 
     fn picture(
@@ -128,6 +132,8 @@ impl<'a> Axes<'a> {
             size: [0; 2],
             spp: 0,
             outputs: job.output.iter().map(file).collect::<Result<_, _>>()?,
+            scene: 0,
+            shape: 0,
             first_unit: 0,
             units: 0,
         })

@@ -12,7 +12,7 @@ pub use super::axis::{Sweep, SweepMode};
 pub use super::keyframes::{Interpolation, Keyframes};
 use super::{BatchError, key};
 use crate::describe::words::explain_in;
-use crate::describe::{BuildQuality, Tier};
+use crate::describe::{self, BuildQuality, Tier};
 use crate::film::Aov;
 
 /// A job, as written. Field names are the keys of the file.
@@ -129,7 +129,13 @@ impl Job {
     }
 
     fn parse(text: &str, name: &str) -> Result<Self, BatchError> {
-        toml::from_str(text).map_err(|error| BatchError::Job(explain_in(name, text, &error).to_string()))
+        toml::from_str(text).map_err(|error| {
+            let explained = explain_in(name, text, &error).to_string();
+            BatchError::Job(match describe::parse(text, name) {
+                Ok(_) => format!("{explained}\n  note: this is a scene; the job file of a batch names it: scene = \"{name}\""),
+                Err(_) => explained,
+            })
+        })
     }
 
     /// The settings that apply to all pictures, as `key=value`.

@@ -21,6 +21,7 @@ mod frames;
 pub mod job;
 mod key;
 mod keyframes;
+mod likeness;
 pub mod merge;
 mod neighbours;
 mod part;

@@ -1,5 +1,6 @@
 //! Work of other jobs in the same output folder.
 
+use std::borrow::Cow;
 use std::collections::HashSet;
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -12,14 +13,14 @@ pub(super) fn check(output: &Path, own: &Path, plan: &Plan) -> Result<(), BatchE
     if others.is_empty() {
         return Ok(());
     }
-    let ours: HashSet<&str> = paths(plan).collect();
+    let ours: HashSet<Cow<str>> = paths(plan).collect();
     for state in others {
         // A plan that cannot be read has nothing that could be resumed.
         let Ok(other) = Plan::read(&state.join("plan.json")) else { continue };
         let shared = paths(&other).find(|path| ours.contains(path));
         if let Some(path) = shared {
             return Err(BatchError::Changed(vec![
-                format!("{} belongs to another job, of {}", output.join(path).display(), state.display()),
+                format!("{} belongs to another job, of {}", output.join(&*path).display(), state.display()),
                 "take another folder with -o, or other paths, or replace it with --force".into(),
             ]));
         }
@@ -27,8 +28,10 @@ pub(super) fn check(output: &Path, own: &Path, plan: &Plan) -> Result<(), BatchE
     Ok(())
 }
 
-fn paths(plan: &Plan) -> impl Iterator<Item = &str> {
-    plan.pictures.iter().flat_map(|picture| &picture.outputs).map(|file| file.path.as_str())
+/// The files of all pictures, those of their cameras too.
+fn paths(plan: &Plan) -> impl Iterator<Item = Cow<'_, str>> {
+    let files = plan.pictures.iter().flat_map(|picture| &picture.outputs);
+    files.flat_map(|file| [Some(Cow::from(&file.path)), file.camera_path().map(Cow::from)]).flatten()
 }
 
 /// The states of other jobs.

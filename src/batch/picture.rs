@@ -4,6 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::pattern::is_free;
 use crate::film::Aov;
+use crate::output::camera_path;
 
 /// One picture: a scene with changes, and the files it becomes.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -19,6 +20,10 @@ pub struct Picture {
     pub spp: u32,
     /// The files.
     pub outputs: Vec<PictureFile>,
+    /// Which scene it shows, camera, lights and most settings aside: pictures with the same number share it.
+    pub scene: u32,
+    /// Which shape that scene has: those with the same number differ in nothing but transforms.
+    pub shape: u32,
     /// Number of its first unit.
     pub first_unit: u64,
     /// How many units it is cut into.
@@ -35,6 +40,13 @@ pub struct PictureFile {
     pub aovs: Vec<Aov>,
     /// Whether the camera's numbers go beside it.
     pub camera_json: bool,
+}
+
+impl PictureFile {
+    /// The file of the camera's numbers, if it has one.
+    pub(super) fn camera_path(&self) -> Option<String> {
+        self.camera_json.then(|| camera_path(self.path.as_ref()).to_string_lossy().into_owned())
+    }
 }
 
 impl Picture {

@@ -1,12 +1,14 @@
 //! Plans: pictures cut into numbered units, and units into shards, once and for all.
 
+mod differences;
+
+use std::mem;
 use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize};
 
 use super::assets::{Asset, Files, changes, hash};
 use super::expand::pictures;
-use super::faults::{MOST_NAMED, first_lines};
 use super::job::Job;
 use super::paths::relative;
 use super::picture::Picture;
@@ -19,7 +21,7 @@ use crate::load::KeptMeshes;
 use crate::output::write_atomically;
 
 /// The first words of a plan, with the version of its format.
-const FORMAT: &str = "octray plan 1";
+const FORMAT: &str = "octray plan 2";
 
 /// More pixels than a scene may have.
 const MOST_PIXELS: u64 = 1 << 28;
@@ -68,6 +70,8 @@ pub struct Plan {
     pub cost: Cost,
     /// The pictures.
     pub pictures: Vec<Picture>,
+    /// BLAKE3 of everything above but `root`: what identifies the plan, and tells a damaged one.
+    pub blake3: String,
 }
 
 /// An estimate of the work.
@@ -104,7 +108,7 @@ impl Plan {
             units += picture.units;
         }
         let samples = pictures.iter().map(Picture::samples).fold(0, u64::saturating_add);
-        Ok(Self {
+        let mut plan = Self {
             format: FORMAT.into(),
             octray: env!("CARGO_PKG_VERSION").into(),
             name: job.name.clone(),
@@ -117,7 +121,18 @@ impl Plan {
             shards,
             cost: Cost { pictures: pictures.len() as u64, units, samples },
             pictures,
-        })
+            blake3: String::new(),
+        };
+        plan.blake3 = plan.seal();
+        Ok(plan)
+    }
+
+    /// What `blake3` is to be.
+    fn seal(&mut self) -> String {
+        let (root, blake3) = (mem::take(&mut self.root), mem::take(&mut self.blake3));
+        let seal = hash(&self.to_bytes());
+        (self.root, self.blake3) = (root, blake3);
+        seal
     }
 
     /// The plan in a file.
@@ -125,13 +140,13 @@ impl Plan {
     /// **Errors:** it cannot be read, is no plan, or is one of another version.
     pub fn read(path: &Path) -> Result<Self, BatchError> {
         let bytes = std::fs::read(path).map_err(|cause| BatchError::read(path, cause))?;
-        let plan: Self = serde_json::from_slice(&bytes)
-            .map_err(|error| BatchError::damaged(path, format!("is no whole plan: {error}")))?;
+        let mut plan: Self = serde_json::from_slice(&bytes)
+            .map_err(|error| BatchError::damaged(path, no_plan(path, &error)))?;
         plan.check().map_err(|reason| BatchError::damaged(path, reason))?;
         Ok(plan)
     }
 
-    fn check(&self) -> Result<(), String> {
+    fn check(&mut self) -> Result<(), String> {
         if self.format != FORMAT {
             return Err(format!("has the format `{}`, expected `{FORMAT}`: make the plan anew", self.format));
         }
@@ -140,6 +155,10 @@ impl Plan {
             return Err(format!(
                 "was made by octray {made} and this is {here}: pictures may differ, make the plan anew"
             ));
+        }
+        let seal = self.seal();
+        if self.blake3 != seal {
+            return Err("is damaged: its hash does not fit: make the plan anew".into());
         }
         if !(1..=MOST_SHARDS).contains(&self.shards) {
             return Err(format!("is damaged: {} shards", self.shards));
@@ -177,8 +196,8 @@ impl Plan {
     }
 
     /// What identifies the plan, wherever it lies.
-    pub fn identity(&self) -> String {
-        hash(&Self { root: PathBuf::new(), ..self.clone() }.to_bytes())
+    pub fn identity(&self) -> &str {
+        &self.blake3
     }
 
     /// Number of units.
@@ -222,37 +241,12 @@ impl Plan {
         }
         if changed.is_empty() { Ok(()) } else { Err(BatchError::Changed(changed)) }
     }
-
-    /// In what this plan differs from one that was begun, in words.
-    pub fn differences(&self, begun: &Self) -> Vec<String> {
-        let mut found = Vec::new();
-        let mut note = |what: &str, was: String, is: String| {
-            if was != is {
-                found.push(format!("{what} was {was} and is {is}"));
-            }
-        };
-        note("octray", begun.octray.clone(), self.octray.clone());
-        note("the scene", begun.scene.clone(), self.scene.clone());
-        note("the split", format!("{:?}", begun.split), format!("{:?}", self.split));
-        note("the number of shards", begun.shards.to_string(), self.shards.to_string());
-        note("the number of pictures", begun.pictures.len().to_string(), self.pictures.len().to_string());
-        note("the settings", begun.sets.join(" "), self.sets.join(" "));
-        if self.scene == begun.scene && self.scene_blake3 != begun.scene_blake3 {
-            found.push(format!("the scene {} has changed", self.scene));
-        }
-        let changed = self.assets.iter().filter(|asset| !begun.assets.contains(asset));
-        let changed = changed.map(|asset| format!("{} has changed", asset.path.display()));
-        found.extend(first_lines(MOST_NAMED, changed));
-        let pair = self.pictures.iter().zip(&begun.pictures).find(|(is, was)| is != was);
-        if let Some((is, was)) = pair.filter(|_| found.is_empty()) {
-            found.push(picture_difference(is, was));
-        }
-        found
-    }
 }
 
-fn picture_difference(is: &Picture, was: &Picture) -> String {
-    let paths = |p: &Picture| p.outputs.iter().map(|o| o.path.clone()).collect::<Vec<_>>().join(" ");
-    let of = |p: &Picture| format!("{} ({}) in {}", p.name, p.sets.join(" "), paths(p));
-    format!("{} was {}", of(is), of(was))
+/// Why a file is no plan.
+fn no_plan(path: &Path, error: &serde_json::Error) -> String {
+    match Job::read(path) {
+        Ok(_) => "is a job and no plan: `octray plan` makes one of it".into(),
+        Err(_) => format!("is no whole plan: {error}"),
+    }
 }

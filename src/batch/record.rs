@@ -4,7 +4,7 @@ use serde::{Deserialize, Serialize};
 
 use super::assets::hash;
 
-const FORMAT: &str = "octray record 1";
+const FORMAT: &str = "octray record 2";
 
 /// A unit is done, and these files hold it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -16,6 +16,8 @@ pub(super) struct Record {
     /// Contributions that were left out because they were not numbers.
     pub(super) nan_samples: u64,
     pub(super) files: Vec<Kept>,
+    /// BLAKE3 of everything above.
+    blake3: String,
 }
 
 /// A file as it was written.
@@ -36,7 +38,14 @@ impl Kept {
 
 impl Record {
     pub(super) fn new(plan: &str, unit: u64, nan_samples: u64, files: Vec<Kept>) -> Self {
-        Self { format: FORMAT.into(), plan: plan.into(), unit, nan_samples, files }
+        let blake3 = String::new();
+        let record = Self { format: FORMAT.into(), plan: plan.into(), unit, nan_samples, files, blake3 };
+        Self { blake3: record.seal(), ..record }
+    }
+
+    /// What `blake3` is to be.
+    fn seal(&self) -> String {
+        hash(&Self { blake3: String::new(), ..self.clone() }.to_bytes())
     }
 
     pub(super) fn to_bytes(&self) -> Vec<u8> {
@@ -53,6 +62,7 @@ impl Record {
             record if record.format != FORMAT => Err(format!("has the format `{}`", record.format)),
             record if record.plan != plan => Err("belongs to another plan".into()),
             record if record.unit != unit => Err(format!("belongs to unit {}, not {unit}", record.unit)),
+            record if record.blake3 != record.seal() => Err("is damaged: its hash does not fit".into()),
             record if record.files.is_empty() => Err("names no file".into()),
             record => Ok(record),
         }
@@ -72,6 +82,12 @@ mod tests {
         let empty = Record::new("plan", 3, 0, Vec::new()).to_bytes();
         assert!(Record::parse(&empty, "plan", 3).unwrap_err().contains("no file"));
         assert!(Record::parse(&bytes, "plan", 4).unwrap_err().contains("unit 3"));
+        for at in 0..bytes.len() - 1 {
+            let mut flipped = bytes.clone();
+            flipped[at] ^= 1;
+            let is_blank = bytes[at].is_ascii_whitespace() || flipped[at].is_ascii_whitespace();
+            assert!(is_blank || Record::parse(&flipped, "plan", 3).is_err(), "byte {at}");
+        }
         for length in 0..bytes.len() - 1 {
             assert!(Record::parse(&bytes[..length.min(bytes.len() - 2)], "plan", 3).is_err());
         }

@@ -6,6 +6,7 @@
 mod active;
 mod finish;
 mod left;
+mod panics;
 mod queue;
 mod work;
 
@@ -92,7 +93,8 @@ pub fn run(plan: &Plan, folder: &Path, store: &Store, options: &RunOptions) -> R
     plan.check_sources(folder)?;
     let Left { to_do, done: done_before, nan_samples } = left(plan, store, options.shard)?;
     let source = Source::read(&plan.scene, &folder.join(&plan.root), options.meshes)?;
-    let scenes = Scenes::new(&source, &plan.sets, options.threads, options.max_memory_bytes, options.meshes)?;
+    let bounds = (options.threads, options.max_memory_bytes);
+    let scenes = Scenes::new(&source, plan, &to_do, bounds, options.meshes)?;
     options.watch.begin(to_do.len() as u64, done_before);
     let counts = Work::new(plan, store, scenes, options, to_do).done();
     Ok(RunReport {

@@ -3,12 +3,9 @@
 use std::path::Path;
 
 use super::BatchError;
-use crate::describe::{self, Amendable, SceneDescription};
-use crate::load::KeptMeshes;
+use crate::describe::{self, Amendable, SceneDescription, is_file_name, unknown_builtin};
+use crate::load::{KeptMeshes, framed, is_mesh};
 use crate::scene::Scene;
-
-/// Endings of meshes, which a scene is framed around.
-const MESHES: [&str; 3] = ["obj", "ply", "stl"];
 
 /// A scene before the changes that pictures make to it.
 pub(super) struct Source {
@@ -18,18 +15,13 @@ pub(super) struct Source {
     pub(super) bytes: Vec<u8>,
 }
 
-/// Whether a scene's name is that of a file: it has a dot or a path separator in it.
-pub(super) fn is_file(name: &str) -> bool {
-    name.contains('.') || name.contains(std::path::is_separator)
-}
-
 impl Source {
     /// Reads a scene file or mesh relative to `folder`, or a built-in scene. A bare mesh is framed, and kept in `meshes`.
     pub(super) fn read(name: &str, folder: &Path, meshes: &KeptMeshes) -> Result<Self, BatchError> {
         let bytes = bytes(name, folder)?;
         let path = folder.join(name);
         let scene = match name {
-            _ if !is_file(name) => builtin(name)?,
+            _ if !is_file_name(name) => builtin(name)?,
             _ if is_mesh(&path) => framed(&path, meshes)?,
             _ => describe::read(&path)?,
         };
@@ -57,7 +49,7 @@ impl Source {
 
 /// The bytes of a scene file or mesh relative to `folder`, or of a built-in scene written out.
 pub(super) fn bytes(name: &str, folder: &Path) -> Result<Vec<u8>, BatchError> {
-    if !is_file(name) {
+    if !is_file_name(name) {
         return Ok(builtin(name)?.to_toml().into_bytes());
     }
     let path = folder.join(name);
@@ -65,26 +57,5 @@ pub(super) fn bytes(name: &str, folder: &Path) -> Result<Vec<u8>, BatchError> {
 }
 
 fn builtin(name: &str) -> Result<SceneDescription, BatchError> {
-    describe::builtin(name)?.ok_or_else(|| BatchError::Job(unknown(name)))
-}
-
-fn unknown(name: &str) -> String {
-    let known: Vec<&str> = describe::builtin_scenes().iter().map(|scene| scene.usage).collect();
-    let known = known.join(", ");
-    format!("there is no built-in scene `{name}`: expected one of {known}, or a file's name with its ending")
-}
-
-fn is_mesh(path: &Path) -> bool {
-    path.extension().is_some_and(|e| MESHES.contains(&e.to_string_lossy().to_lowercase().as_str()))
-}
-
-fn framed(path: &Path, meshes: &KeptMeshes) -> Result<SceneDescription, BatchError> {
-    let (folder, name) =
-        (path.parent().unwrap_or(Path::new("")), Path::new(path.file_name().unwrap_or_default()));
-    let bounds = meshes.load(&describe::Mesh::from_path(name), folder)?.bounds();
-    let bounds =
-        bounds.ok_or_else(|| BatchError::Job(format!("{}: has no triangle with an area", path.display())))?;
-    let mut scene = describe::framed_mesh(name, bounds.map(|corner| corner.map(f64::from)));
-    scene.folder = folder.to_owned();
-    Ok(scene)
+    describe::builtin(name)?.ok_or_else(|| BatchError::Job(unknown_builtin(name)))
 }

@@ -57,20 +57,24 @@ impl Store {
 
     fn at(output: &Path, plan: &Plan) -> Self {
         let folder = output.join(format!("{}{STATE_ENDING}", plan.name));
-        Self { output: output.to_owned(), folder, plan: plan.identity() }
+        Self { output: output.to_owned(), folder, plan: plan.identity().to_owned() }
     }
 
     fn plan_path(&self) -> PathBuf {
         self.folder.join("plan.json")
     }
 
+    /// Whether any work was begun here.
+    pub fn is_begun(&self) -> bool {
+        self.plan_path().exists()
+    }
+
     /// Whether work was begun with this very plan.
     fn has_begun(&self, plan: &Plan) -> Result<bool, BatchError> {
-        let path = self.plan_path();
-        if !path.exists() {
+        if !self.is_begun() {
             return Ok(false);
         }
-        let begun = Plan::read(&path)?;
+        let begun = Plan::read(&self.plan_path())?;
         if begun.identity() == self.plan {
             return Ok(true);
         }

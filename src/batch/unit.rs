@@ -107,7 +107,7 @@ mod tests {
 
     fn units(split: Split, shards: u32, size: [u32; 2], spp: u32) -> Vec<Unit> {
         let (name, sets, outputs) = (String::new(), Vec::new(), Vec::new());
-        let picture = Picture { name, sets, size, spp, outputs, first_unit: 0, units: 0 };
+        let picture = Picture { name, sets, size, spp, outputs, scene: 0, shape: 0, first_unit: 0, units: 0 };
         let cut = Cut::of(split, shards, &picture);
         (0..cut.units()).map(|part| cut.unit(part, 0, part)).collect()
     }

@@ -12,8 +12,10 @@ use super::args::{BuildQuality, Tier, parse_size};
 use super::error::{CliError, Exit};
 use super::source::SceneSource;
 use super::stdio::{print, say};
+use super::threads::pool;
 use super::{pipeline, simd};
 use crate::accel::Quality;
+use crate::describe::is_file_name;
 use crate::measure::bench::{
     Baseline, BaselineError, Class, Counters, Options, Report, Scaling, SceneReport, Settings, Subject,
     TooFewSizes, View, bench_scene, box_tests_a_second, comparison_table, scaling_plot, table,
@@ -86,7 +88,7 @@ pub fn run(args: &BenchArgs) -> Result<(), CliError> {
         Scaling::expects(scenes(args).len()).map_err(too_few)?;
     }
     let baseline = args.baseline.as_deref().map(Baseline::read).transpose().map_err(unusable)?;
-    let pool = pool(usize::from(args.threads))?;
+    let pool = pool(args.threads)?;
     let peers = Peers::open(args)?;
     announce(&pool);
     let mut report = measure(args, &pool, &peers)?;
@@ -112,11 +114,6 @@ fn scale(report: &mut Report, path: &Path) -> Result<(), CliError> {
 
 fn too_few(error: TooFewSizes) -> CliError {
     CliError::new(Exit::Usage, "--plot has too few sizes").because(error)
-}
-
-fn pool(threads: usize) -> Result<ThreadPool, CliError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|error| CliError::new(Exit::Failed, "worker threads cannot be started").because(error))
 }
 
 /// What readers of the numbers should know about this machine.
@@ -168,9 +165,9 @@ fn scene(
     pool: &ThreadPool,
     peers: &Peers,
 ) -> Result<SceneReport, CliError> {
-    let (name, own_view) = view_of(text);
+    let (name, own_view) = view_of(text).map_err(|error| CliError::new(Exit::Usage, error))?;
     let Ok(source) = SceneSource::parse(name);
-    let usual = if pipeline::is_mesh(&source) { View::Outside } else { View::Scene };
+    let usual = if source.is_mesh() { View::Outside } else { View::Scene };
     let view = own_view.or(args.view).unwrap_or(usual);
     say(&format!("{source}: loading"));
     let compiled = pool.install(|| pipeline::open_bare(&source, options.size))?;
@@ -184,10 +181,16 @@ fn scene(
         .map_err(|error| CliError::of(Exit::Failed, error))
 }
 
-/// `sponza.obj@inside` is `sponza.obj` seen from inside.
-fn view_of(text: &str) -> (&str, Option<View>) {
-    let marked = text.rsplit_once('@').and_then(|(name, view)| Some((name, Some(view.parse().ok()?))));
-    marked.unwrap_or((text, None))
+/// `sponza.obj@inside` is `sponza.obj` seen from inside; a file may have an `@` in its own name.
+fn view_of(text: &str) -> Result<(&str, Option<View>), String> {
+    match text.rsplit_once('@') {
+        Some((name, view)) if !is_file_name(view) => match view.parse() {
+            Ok(view) => Ok((name, Some(view))),
+            Err(_) if Path::new(text).exists() => Ok((text, None)),
+            Err(error) => Err(error),
+        },
+        _ => Ok((text, None)),
+    }
 }
 
 fn to_json(report: &Report) -> Result<String, CliError> {
@@ -223,8 +226,9 @@ mod tests {
 
     #[test]
     fn a_view_stands_behind_the_scene() {
-        assert_eq!(view_of("a/sponza.obj@inside"), ("a/sponza.obj", Some(View::Inside)));
-        assert_eq!(view_of("seed"), ("seed", None));
-        assert_eq!(view_of("me@home.obj"), ("me@home.obj", None));
+        assert_eq!(view_of("a/sponza.obj@inside"), Ok(("a/sponza.obj", Some(View::Inside))));
+        assert_eq!(view_of("seed"), Ok(("seed", None)));
+        assert_eq!(view_of("me@home.obj"), Ok(("me@home.obj", None)));
+        assert!(view_of("a/sponza.obj@insid").unwrap_err().contains("inside"));
     }
 }

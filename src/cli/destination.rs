@@ -43,14 +43,23 @@ impl Destination {
         }
     }
 
-    /// Fails if the format has no place for values beside colour that are asked for.
-    pub(super) fn check_aovs(&self, aovs: AovSet) -> Result<(), CliError> {
-        if aovs.is_empty() || self.format == Format::Exr {
-            return Ok(());
+    /// Fails now if the format has no place for values beside colour that are asked for, or if the camera's numbers could not
+    /// be written beside them.
+    pub(super) fn check_planes(&self, aovs: AovSet) -> Result<(), CliError> {
+        if !aovs.is_empty() && self.format != Format::Exr {
+            let names: Vec<&str> = aovs.iter().map(Aov::name).collect();
+            let what = format!("{self}: {} cannot hold {}: use exr", self.format, names.join(", "));
+            return Err(CliError::new(Exit::Usage, what));
         }
-        let names: Vec<&str> = aovs.iter().map(Aov::name).collect();
-        let what = format!("{self}: {} cannot hold {}: use exr", self.format, names.join(", "));
-        Err(CliError::new(Exit::Usage, what))
+        match self.camera_path(aovs) {
+            Some(camera) => Ok(output::check_writable(&camera)?),
+            None => Ok(()),
+        }
+    }
+
+    /// Where the camera's numbers go: beside a picture with values that need them; beside standard output is no place.
+    fn camera_path(&self, aovs: AovSet) -> Option<PathBuf> {
+        self.path.as_ref().filter(|_| !aovs.is_empty()).map(|path| output::camera_path(path))
     }
 
     /// Whether writing may wait for a reader, unlike writing a regular file.
@@ -67,13 +76,11 @@ impl Destination {
         })
     }
 
-    /// Writes the camera's numbers beside a picture with values that need them; beside standard output is no place.
+    /// Writes the camera's numbers, if they have a place.
     pub(super) fn write_camera(&self, scene: &Scene, crop: Option<[u32; 4]>) -> Result<(), CliError> {
-        let Some(path) = self.path.as_ref().filter(|_| !scene.settings.aovs.is_empty()) else {
-            return Ok(());
-        };
+        let Some(path) = self.camera_path(scene.settings.aovs) else { return Ok(()) };
         let camera = output::camera_json(&scene.camera, scene.settings.size, crop);
-        Ok(output::write_atomically(&output::camera_path(path), format!("{camera:#}\n").as_bytes())?)
+        Ok(output::write_atomically(&path, format!("{camera:#}\n").as_bytes())?)
     }
 }
 

@@ -89,7 +89,7 @@ impl From<BatchError> for CliError {
         let exit = match error {
             BatchError::Output(error) => return error.into(),
             BatchError::Shard(_) => Exit::Usage,
-            BatchError::Render(_) => Exit::Failed,
+            BatchError::Render(_) | BatchError::Panicked(_) => Exit::Failed,
             BatchError::Read { ref cause, .. } if cause.kind() != std::io::ErrorKind::NotFound => {
                 Exit::Failed
             }

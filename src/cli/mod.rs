@@ -28,6 +28,7 @@ mod simd;
 mod source;
 mod stdio;
 mod summary;
+mod threads;
 pub mod tradeoff;
 pub mod verify;
 

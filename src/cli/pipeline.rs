@@ -3,22 +3,20 @@
 //! The stages describe, load, scene and wavefront are joined here and nowhere else in the command line.
 
 use std::io::Read;
-use std::path::Path;
 use std::time::{Duration, Instant};
 
 use super::begun;
 use super::error::{CliError, Exit};
 use super::source::SceneSource;
+use super::threads::pool;
+use crate::batch::Job;
 use crate::describe::{self, DescribeError, Origin, SceneDescription};
-use crate::load::{KeptMeshes, load_mesh};
+use crate::load::{KeptMeshes, framed};
 use crate::scene::Scene;
 
 pub(super) use crate::wavefront::{
     Goal, Progress, Reached, RenderError, RenderOptions, RenderReport, render,
 };
-
-/// Endings of meshes, which a scene is framed around.
-const MESHES: [&str; 3] = ["obj", "ply", "stl"];
 
 /// A scene ready to render, and its name.
 pub(super) struct Opened {
@@ -30,13 +28,13 @@ pub(super) struct Opened {
     pub(super) start_time: Duration,
 }
 
-/// Reads the scene, applies `assignments` in order, compiles it with as many threads (0: all that there are).
+/// Reads the scene, applies `assignments` in order, compiles it with as many threads as `--threads` says.
 ///
 /// **Errors**: exit 3 for a bad scene or asset, 2 for a bad assignment.
 pub(super) fn open(
     source: &SceneSource,
     assignments: &[(String, String)],
-    threads: usize,
+    threads: u16,
 ) -> Result<Opened, CliError> {
     open_changed(source, assignments, threads, |_| {})
 }
@@ -45,13 +43,13 @@ pub(super) fn open(
 pub(super) fn open_changed(
     source: &SceneSource,
     assignments: &[(String, String)],
-    threads: usize,
+    threads: u16,
     change: impl FnOnce(&mut SceneDescription),
 ) -> Result<Opened, CliError> {
     let sets: Vec<String> = assignments.iter().map(|(key, value)| format!("{key}={value}")).collect();
     let meshes = KeptMeshes::keeping();
     // Scene files are quickly read: only bare meshes are worth threads before it is known what there is.
-    let workers = if is_mesh(source) { Some(pool(threads)?) } else { None };
+    let workers = if source.is_mesh() { Some(pool(threads)?) } else { None };
     let read = || describe(source, &sets, &meshes);
     let reading = Instant::now();
     let mut description = workers.as_ref().map_or_else(read, |workers| workers.install(read))?;
@@ -63,11 +61,6 @@ pub(super) fn open_changed(
     let load_time = read_time + scene.times.load;
     let start_time = begun::elapsed().saturating_sub(load_time + scene.times.build);
     Ok(Opened { name: source.to_string(), scene, load_time, start_time })
-}
-
-fn pool(threads: usize) -> Result<rayon::ThreadPool, CliError> {
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-    pool.map_err(|error| CliError::of(Exit::Failed, error))
 }
 
 /// Fewer shapes are compiled by one thread sooner than others could be started.
@@ -89,7 +82,7 @@ pub(super) fn open_bare(source: &SceneSource, size: [u32; 2]) -> Result<Scene, C
     let meshes = KeptMeshes::keeping();
     let mut description = describe(source, &[], &meshes)?;
     description.render.size = size;
-    if is_mesh(source) {
+    if source.is_mesh() {
         let floor = description.quad.pop();
         for mesh in &mut description.mesh {
             // Any material in place of the file's own, so that those are not read.
@@ -112,43 +105,24 @@ fn describe(
             read.map_err(|error| CliError::new(Exit::Failed, "cannot read standard input").because(error))?;
             describe::parse_with(&text, "standard input", sets).map_err(refused)
         }
-        SceneSource::File(path) if is_mesh(source) => {
-            framed(path, meshes)?.amended(&source.to_string(), sets).map_err(refused)
+        SceneSource::File(path) if source.is_mesh() => {
+            let scene = framed(path, meshes).map_err(|error| CliError::of(Exit::Scene, error))?;
+            scene.amended(&source.to_string(), sets).map_err(refused)
         }
-        SceneSource::File(path) => describe::read_with(path, sets).map_err(refused),
+        SceneSource::File(path) => describe::read_with(path, sets).map_err(|error| match Job::read(path) {
+            Ok(_) => CliError::new(
+                Exit::Scene,
+                error.to_string() + "\n  note: this is a job: octray batch renders it",
+            ),
+            Err(_) => refused(error),
+        }),
         SceneSource::BuiltIn(name) => builtin(name)?.amended(name, sets).map_err(refused),
     }
 }
 
-/// True if the source is a mesh without a scene.
-pub(super) fn is_mesh(source: &SceneSource) -> bool {
-    let SceneSource::File(path) = source else { return false };
-    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    ending.is_some_and(|e| MESHES.contains(&e.as_str()))
-}
-
-/// A camera, lights and a floor around a bare mesh, which is kept to be compiled.
-fn framed(path: &Path, meshes: &KeptMeshes) -> Result<SceneDescription, CliError> {
-    let mesh = load_mesh(path).map_err(|error| CliError::of(Exit::Scene, error))?;
-    let bounds = mesh.bounds().ok_or_else(|| {
-        CliError::new(Exit::Scene, format!("{}: has no triangle with an area", path.display()))
-    })?;
-    let path = std::path::absolute(path).unwrap_or(path.to_owned());
-    let scene = describe::framed_mesh(&path, bounds.map(|corner| corner.map(f64::from)));
-    meshes.keep(&scene.mesh[0], &scene.folder, mesh);
-    Ok(scene)
-}
-
 fn builtin(name: &str) -> Result<SceneDescription, CliError> {
     let scene = describe::builtin(name).map_err(|error| CliError::of(Exit::Usage, error))?;
-    scene.ok_or_else(|| {
-        let names: Vec<&str> = describe::builtin_scenes().iter().map(|scene| scene.usage).collect();
-        let known = names.join(", ");
-        CliError::new(
-            Exit::Usage,
-            format!("there is no built-in scene `{name}`: expected one of {known}, or a file's name with its ending"),
-        )
-    })
+    scene.ok_or_else(|| CliError::new(Exit::Usage, describe::unknown_builtin(name)))
 }
 
 /// A description's fault: of use where all of it is in arguments, of the scene otherwise.

@@ -1,20 +1,24 @@
 //! How far a render is, on standard error: a bar, lines, JSON objects or nothing; then how it ended, once.
 
+mod events;
+mod style;
+
 use std::io::IsTerminal;
 use std::sync::atomic::{AtomicBool, AtomicU64, Ordering::Relaxed};
 use std::sync::{Mutex, OnceLock};
 use std::time::{Duration, Instant};
 
-use indicatif::{ProgressBar, ProgressStyle};
-use serde_json::{Value, json};
+use serde_json::json;
 
 use super::args::ProgressMode;
 use super::error::CliError;
 use super::pipeline::Progress;
-use super::rhythm::{Rhythm, millionths, speed, time_left};
+use super::rhythm::{Rhythm, millionths, speed};
 use super::stdio::say;
 use super::summary::Ending;
 use crate::batch::run::Failure;
+use events::{failed_event, progress_event};
+use style::{Style, style};
 
 /// Tells the user how a render goes. All threads may call it.
 pub(super) struct Reporter {
@@ -27,13 +31,6 @@ pub(super) struct Reporter {
     /// Units done and in all, where there is more than one picture.
     units: [AtomicU64; 2],
     ended: AtomicBool,
-}
-
-enum Style {
-    Bar(ProgressBar),
-    Plain,
-    Json,
-    Silent,
 }
 
 impl Reporter {
@@ -57,6 +54,14 @@ impl Reporter {
             _ if self.quiet => {}
             Style::Json => say(&json!({ "event": "warning", "message": text }).to_string()),
             _ => say(&format!("warning: {text}")),
+        }
+    }
+
+    /// Says where and why the program panicked.
+    pub(super) fn panicked(&self, text: &str) {
+        match self.style {
+            Style::Json => say(&json!({ "event": "warning", "message": text }).to_string()),
+            _ => say(text),
         }
     }
 
@@ -168,76 +173,10 @@ impl Reporter {
     }
 }
 
-impl Style {
-    fn rhythm(&self) -> Rhythm {
-        match self {
-            Self::Bar(_) => Rhythm::every(Duration::from_millis(100)),
-            Self::Json => Rhythm::every(Duration::from_millis(500)),
-            Self::Plain | Self::Silent => Rhythm::by_tenths(),
-        }
-    }
-}
-
-fn style(mode: ProgressMode, quiet: bool, terminal: bool) -> Style {
-    match mode {
-        ProgressMode::None => Style::Silent,
-        ProgressMode::Auto if quiet => Style::Silent,
-        ProgressMode::Auto | ProgressMode::Bar if terminal => Style::Bar(bar()),
-        ProgressMode::Json => Style::Json,
-        ProgressMode::Auto | ProgressMode::Bar | ProgressMode::Plain => Style::Plain,
-    }
-}
-
-fn bar() -> ProgressBar {
-    let style = ProgressStyle::with_template("{bar:32} {percent:>3} %, {msg}").unwrap();
-    ProgressBar::new(0).with_style(style.progress_chars("=> "))
-}
-
-fn progress_event(progress: &Progress, elapsed: Duration) -> Value {
-    json!({
-        "event": "progress",
-        "pixels_done": progress.pixels_done,
-        "pixels_total": progress.pixels_total,
-        "rays": progress.rays,
-        "elapsed_s": elapsed.as_secs_f64(),
-        "left_s": time_left(progress, elapsed).map(|left| left.as_secs_f64()),
-    })
-}
-
-fn failed_event(error: &CliError) -> Value {
-    json!({ "event": "failed", "exit_code": error.exit() as u8, "error": error.to_string() })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cli::Exit;
-    use crate::cli::rhythm::tests::{progress, seconds};
-
-    #[test]
-    fn modes_choose_their_style() {
-        let name = |mode, quiet, terminal| match style(mode, quiet, terminal) {
-            Style::Bar(_) => "bar",
-            Style::Plain => "plain",
-            Style::Json => "json",
-            Style::Silent => "silent",
-        };
-        assert_eq!(name(ProgressMode::Auto, false, true), "bar");
-        assert_eq!(name(ProgressMode::Auto, false, false), "plain");
-        assert_eq!(name(ProgressMode::Auto, true, true), "silent");
-        assert_eq!(name(ProgressMode::Bar, false, false), "plain");
-        assert_eq!(name(ProgressMode::Json, true, true), "json");
-        assert_eq!(name(ProgressMode::None, false, true), "silent");
-    }
-
-    #[test]
-    fn events_are_one_line() {
-        let event = progress_event(&progress(1, 4), seconds(2.0));
-        assert_eq!((&event["event"], &event["left_s"]), (&json!("progress"), &json!(6.0)));
-        let event = failed_event(&CliError::new(Exit::Scene, "two\nlines \"quoted\""));
-        assert!(!event.to_string().contains('\n'));
-        assert_eq!(event["exit_code"], 3);
-    }
+    use crate::cli::rhythm::tests::progress;
 
     #[test]
     fn only_the_first_end_counts() {

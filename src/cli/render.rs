@@ -12,6 +12,7 @@ use super::progress::Reporter;
 use super::signals::Interrupt;
 use super::simd;
 use super::summary::Summary;
+use super::threads::threads;
 use crate::film::Film;
 
 /// Renders as `args` say.
@@ -33,8 +34,8 @@ fn picture(args: &RenderArgs, reporter: &Arc<Reporter>) -> Result<Summary, CliEr
         reporter.warn(&advice);
     }
     let interrupt = Interrupt::install(end_at_once(reporter, &destination))?;
-    let scene = pipeline::open(&args.scene.scene, &args.assignments(), usize::from(args.threads))?;
-    destination.check_aovs(scene.scene.settings.aovs)?;
+    let scene = pipeline::open(&args.scene.scene, &args.assignments(), args.threads)?;
+    destination.check_planes(scene.scene.settings.aovs)?;
     let (film, report) = render(args, &scene, reporter, &interrupt, &destination)?;
     let summary = write(&scene, &film, report, &interrupt, &destination)?;
     destination.write_camera(&scene.scene, args.crop)?;
@@ -49,7 +50,7 @@ fn render(
     destination: &Destination,
 ) -> Result<(Film, RenderReport), CliError> {
     let options = RenderOptions {
-        threads: usize::from(args.threads),
+        threads: threads(args.threads),
         crop: args.crop,
         progress: Some(&|progress: Progress| reporter.advance(&progress)),
         cancel: Some(interrupt.flag()),

@@ -2,8 +2,15 @@
 
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::SeqCst};
+#[cfg(unix)]
+use std::time::{Duration, Instant};
 
 use super::error::{CliError, Exit};
+
+/// What comes so soon after the first signal is the same one: `timeout` and some schedulers send it to the process and then
+/// to its group.
+#[cfg(unix)]
+const ECHO: Duration = Duration::from_millis(300);
 
 /// Signals that ask the program to end, as flags.
 pub(super) struct Interrupt {
@@ -48,8 +55,10 @@ impl Interrupt {
         let mut signals = signal_hook::iterator::Signals::new([SIGINT, SIGTERM, SIGUSR1])?;
         let (asked, deferred) = (Arc::clone(&self.asked), Arc::clone(&self.deferred));
         let watch = move || {
+            let mut first = None;
             for signal in signals.forever() {
-                let is_second = asked.swap(true, SeqCst) && (!patient || signal == SIGINT);
+                let is_echo = first.get_or_insert_with(Instant::now).elapsed() < ECHO;
+                let is_second = asked.swap(true, SeqCst) && !is_echo && (!patient || signal == SIGINT);
                 if is_second || !deferred.load(SeqCst) {
                     super::error::end_program(&end());
                 }
@@ -77,7 +86,6 @@ impl Interrupt {
 #[cfg(all(test, unix))]
 mod tests {
     use super::*;
-    use std::time::{Duration, Instant};
 
     #[test]
     fn a_deferred_signal_sets_the_flag() {

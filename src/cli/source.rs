@@ -4,6 +4,9 @@ use std::convert::Infallible;
 use std::fmt;
 use std::path::{Path, PathBuf};
 
+use crate::describe::is_file_name;
+use crate::load;
+
 /// Where a scene comes from, by the look of its name: the file system is not asked.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum SceneSource {
@@ -21,9 +24,14 @@ impl SceneSource {
     pub fn parse(text: &str) -> Result<Self, Infallible> {
         Ok(match text {
             "-" => Self::Stdin,
-            _ if text.contains('.') || text.contains(std::path::is_separator) => Self::File(text.into()),
+            _ if is_file_name(text) => Self::File(text.into()),
             _ => Self::BuiltIn(text.into()),
         })
+    }
+
+    /// Whether it is a mesh without a scene.
+    pub fn is_mesh(&self) -> bool {
+        matches!(self, Self::File(path) if load::is_mesh(path))
     }
 
     /// A short name for messages and for the picture's file: `bunny` for `meshes/bunny.obj`.

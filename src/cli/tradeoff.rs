@@ -11,6 +11,7 @@ use super::goal::parse_seconds;
 use super::pipeline::{self, RenderError, RenderOptions};
 use super::simd;
 use super::stdio::{print, say};
+use super::threads::threads;
 use crate::describe::SceneDescription;
 use crate::measure::tradeoff::{Effort, Report, TradeoffError, page, table, tradeoff};
 use crate::output;
@@ -67,11 +68,10 @@ fn files(folder: &Path) -> Result<[PathBuf; 2], CliError> {
 }
 
 fn measure(args: &TradeoffArgs) -> Result<Report, CliError> {
-    let threads = usize::from(args.threads);
     let resize = |scene: &mut SceneDescription| {
         scene.render.size = args.size.unwrap_or_else(|| halved(scene.render.size));
     };
-    let opened = pipeline::open_changed(&args.scene.scene, &args.scene.assignments, threads, resize)?;
+    let opened = pipeline::open_changed(&args.scene.scene, &args.scene.assignments, args.threads, resize)?;
     let tell = |what: &str| {
         if !args.quiet {
             say(what);
@@ -79,7 +79,7 @@ fn measure(args: &TradeoffArgs) -> Result<Report, CliError> {
     };
     let effort = Effort {
         budget: args.budget,
-        options: RenderOptions { threads, ..RenderOptions::default() },
+        options: RenderOptions { threads: threads(args.threads), ..RenderOptions::default() },
         say: &tell,
     };
     let report = tradeoff(&opened.name, opened.scene, &effort).map_err(failed)?;

@@ -8,6 +8,8 @@ use super::args::Tier;
 use super::error::{CliError, Exit};
 use super::simd;
 use super::stdio::{print, say};
+use super::threads::pool;
+use crate::describe::words::suggest;
 use crate::intersect::TierName;
 use crate::measure::verify::{Effort, Family, FamilyReport, Report, table, verify_family};
 use crate::output;
@@ -47,10 +49,7 @@ pub fn run(args: &VerifyArgs) -> Result<(), CliError> {
     if let Some(path) = &args.json {
         output::check_writable(path)?;
     }
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(usize::from(args.threads)).build();
-    let pool =
-        pool.map_err(|error| CliError::new(Exit::Failed, "worker threads cannot be started").because(error))?;
-    let report = pool.install(|| measure(args, &families));
+    let report = pool(args.threads)?.install(|| measure(args, &families));
     print(table(&report).as_bytes())?;
     if let Some(path) = &args.json {
         let json = serde_json::to_string_pretty(&report)
@@ -70,10 +69,9 @@ fn families(names: &[String]) -> Result<Vec<&'static Family>, CliError> {
         return Ok(Family::all().collect());
     }
     let family = |name: &String| {
-        let known = || Family::all().map(|family| family.name).collect::<Vec<_>>().join(", ");
-        let unknown =
-            || CliError::new(Exit::Usage, format!("no family is called `{name}`: there are {}", known()));
-        Family::named(name).ok_or_else(unknown)
+        let known: Vec<&str> = Family::all().map(|family| family.name).collect();
+        let help = || format!("no family is called `{name}`\n  help: {}", suggest(name, &known));
+        Family::named(name).ok_or_else(|| CliError::new(Exit::Usage, help()))
     };
     names.iter().map(family).collect()
 }

@@ -50,6 +50,7 @@ mod write;
 pub use amend::Amendable;
 pub use background::Background;
 pub use builtin::{BuiltinScene, builtin, builtin_scenes};
+pub(crate) use builtin::{is_file_name, unknown_builtin};
 pub use camera::{Camera, CameraKind, Handedness};
 pub use check::Fault;
 pub use error::{DescribeError, Diagnostic, Origin};

@@ -33,7 +33,8 @@ fn reword(message: &str) -> (String, Option<String>) {
     }
 }
 
-fn suggest(found: &str, valid: &[&str]) -> String {
+/// The nearest of some valid names, if one is near, and all of them.
+pub(crate) fn suggest(found: &str, valid: &[&str]) -> String {
     let all = valid.join(", ");
     match nearest(found, valid.iter().copied()) {
         Some(near) => format!("did you mean `{near}`? valid here: {all}"),

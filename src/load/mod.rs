@@ -10,6 +10,7 @@
 //! # Ok::<(), octray::load::LoadError>(())
 //! ```
 
+mod bare;
 mod described;
 mod error;
 mod finish;
@@ -34,6 +35,7 @@ mod texture;
 use crate::describe::Material;
 use std::path::Path;
 
+pub(crate) use bare::{framed, is_mesh};
 pub use described::load_described;
 pub use error::LoadError;
 pub use kept::KeptMeshes;

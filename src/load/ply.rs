@@ -19,14 +19,14 @@ pub(super) fn parse(path: &Path, bytes: &[u8]) -> Result<Mesh, LoadError> {
 pub(super) fn header<'a>(path: &Path, bytes: &'a [u8]) -> Result<(Header, Reader<&'a [u8]>), LoadError> {
     let mut reader = Reader::new(bytes);
     let header = Parser::<Skipped>::new().read_header(&mut reader);
-    let header = header.map_err(|error| malformed(path, error.line(), &error.to_string()))?;
+    let header = header.map_err(|error| unreadable(path, &error, Encoding::Ascii))?;
     check_vertex(&header, path)?;
     Ok((header, reader))
 }
 
 /// The mesh behind a header, whatever its properties are.
 pub(super) fn read_body(path: &Path, header: &Header, reader: &mut Reader<&[u8]>) -> Result<Mesh, LoadError> {
-    let explain = |error: ParseError| malformed(path, error.line(), &error.to_string());
+    let explain = |error: ParseError| unreadable(path, &error, header.encoding);
     let mut mesh = Mesh::default();
     for (name, element) in &header.elements {
         // Takes no byte however many there are, and would take memory for each.
@@ -48,19 +48,23 @@ pub(super) fn read_body(path: &Path, header: &Header, reader: &mut Reader<&[u8]>
     Ok(mesh)
 }
 
-/// The parser's message carries the line and the text in several lines: ours has one, the line stands in front.
-fn malformed(path: &Path, line: Option<usize>, message: &str) -> LoadError {
-    let message = message.split_once(": ").filter(|_| line.is_some()).map_or(message, |(_, rest)| rest);
+/// The parser's message carries the line and the text in several lines: ours has one, the line stands in front. Bytes have no
+/// lines, though the parser counts on behind those of the header.
+fn unreadable(path: &Path, error: &ParseError, encoding: Encoding) -> LoadError {
+    let (line, message) = (error.line(), error.to_string());
+    let message = message.split_once(": ").filter(|_| line.is_some()).map_or(&*message, |(_, rest)| rest);
     let shown: Vec<&str> = message.split_whitespace().collect();
     let shown: String = shown.join(" ").chars().take(300).collect();
-    LoadError::malformed(path, line, shown)
+    LoadError::malformed(path, line.filter(|_| encoding == Encoding::Ascii), shown)
 }
 
 fn check_vertex(header: &Header, path: &Path) -> Result<(), LoadError> {
     let has = |name: &str| header.elements.get("vertex").is_some_and(|v| v.properties.contains_key(name));
     match ["x", "y", "z"].into_iter().find(|name| !has(name)) {
         None => Ok(()),
-        Some(name) => Err(malformed(path, None, &format!("vertices have no `{name}`: expected x, y and z"))),
+        Some(name) => {
+            Err(LoadError::malformed(path, None, format!("vertices have no `{name}`: expected x, y and z")))
+        }
     }
 }
 
@@ -88,7 +92,7 @@ fn add_faces(mesh: &mut Mesh, faces: &[Face], path: &Path) -> Result<(), LoadErr
     for (number, Face { corners }) in faces.iter().enumerate() {
         if let Some(bad) = corners.iter().find(|&&v| v as usize >= count) {
             let message = format!("face {number} uses vertex {bad}: there are {count}, counted from 0");
-            return Err(malformed(path, None, &message));
+            return Err(LoadError::malformed(path, None, message));
         }
         mesh.report.degenerate += usize::from(corners.len() < 3);
         triangulate(&mesh.positions, corners, &mut mesh.triangles);

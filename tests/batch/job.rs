@@ -52,6 +52,26 @@ fn bad_jobs_name_the_file_the_line_and_what_was_expected() {
     }
 }
 
+/// Files of the wrong kind and folders of other work: it is said what would be right.
+#[test]
+fn wrong_files_and_folders_are_known_for_what_they_are() {
+    let folder = folder(SMALL);
+    let path = folder.path();
+    std::fs::write(path.join("scene.toml"), done(path, "scenes --write seed")).unwrap();
+    for verb in ["batch", "plan"] {
+        fails(path, &format!("{verb} scene.toml"), 3, &["scene.toml:", "scene = \"scene.toml\""]);
+    }
+    fails(path, "render turn.toml", 3, &["turn.toml:", "octray batch"]);
+    for verb in ["run", "merge", "status"] {
+        fails(path, &format!("{verb} turn.toml"), 3, &["turn.toml: is a job", "octray plan"]);
+    }
+    done(path, "plan turn.toml");
+    done(path, "run turn.plan -o out");
+    fails(path, "merge turn.plan", 3, &["4 of 4 units are missing", "-o is the folder"]);
+    assert!(done(path, "status turn.plan").contains("-o is the folder"));
+    assert!(!done(path, "status turn.plan -o out").contains("-o is"));
+}
+
 /// However it is spelled.
 #[test]
 fn two_outputs_are_not_one_file() {
@@ -73,6 +93,20 @@ fn two_outputs_differ_in_more_than_capital_letters() {
         let folder = folder(&format!("scene = \"seed\"\n{job}"));
         fails(folder.path(), "plan turn.toml", 3, &words);
     }
+}
+
+#[test]
+fn two_pictures_have_two_camera_files() {
+    let cameras = "[[camera]]\nname = \"exr\"\n[[camera]]\nname = \"pfm\"\n";
+    let folder = folder(&format!(
+        "scene = \"seed\"\n{cameras}[[output]]\npath = \"a.{{camera}}\"\ncamera_json = true\n"
+    ));
+    fails(
+        folder.path(),
+        "plan turn.toml",
+        3,
+        &["`a.camera.json` would hold the cameras of both", "camera exr"],
+    );
 }
 
 /// One key in two spellings would be set twice, and one of its values be for nothing.
@@ -227,49 +261,4 @@ fn keys_that_count_are_keyframed_and_swept_in_whole_numbers() {
         3,
         &["frame 2", "1.5", "a whole number"],
     );
-}
-
-#[test]
-fn wrappers_know_how_many_shards_schedulers_take() {
-    let folder = folder(SMALL);
-    let plan = |shards: u32, wrapper: &str| format!("plan turn.toml --shards {shards} --emit {wrapper}");
-    done(folder.path(), &plan(100_000, "k8s"));
-    std::fs::remove_file(folder.path().join("turn.plan")).unwrap();
-    fails(folder.path(), &plan(100_001, "k8s"), 2, &["Kubernetes", "100000", "--shards"]);
-    assert!(!folder.path().join("turn.plan").exists());
-    assert!(!done(folder.path(), &plan(1001, "slurm")).contains("MaxArraySize"));
-    let said = done(folder.path(), &plan(1002, "slurm"));
-    assert!(
-        said.contains("warning: an array of 1002") && said.contains("# 1002 shards need MaxArraySize=1002")
-    );
-    assert!(said.starts_with("#!/bin/sh\n"), "{said}");
-}
-
-#[test]
-fn wrappers_name_the_plan_and_every_shard() {
-    let folder = folder(SMALL);
-    for (wrapper, words) in [
-        (
-            "slurm",
-            &[
-                "--array=0-7",
-                "--requeue",
-                "--open-mode=append",
-                "--signal=B:USR1@30",
-                "exec octray run turn.plan --shard auto",
-                "afterany",
-                "exec octray merge turn.plan",
-            ][..],
-        ),
-        ("openjd", &["jobtemplate-2023-09", "0-7", "/8", "dependsOn"]),
-        ("k8s", &["completionMode: Indexed", "completions: 8", "[2, 3]"]),
-        ("parallel", &["seq 0 7", "{}/8", "octray merge turn.plan"]),
-    ] {
-        let text = done(folder.path(), &format!("plan turn.toml --shards 8 --emit {wrapper}"));
-        for word in words {
-            assert!(text.contains(word), "{wrapper}: `{word}` is not in:\n{text}");
-        }
-        let unfilled = ["@NAME@", "@PLAN@", "@SHARDS@", "@LAST@"].iter().any(|word| text.contains(word));
-        assert!(!unfilled, "{text}");
-    }
 }

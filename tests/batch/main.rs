@@ -11,6 +11,7 @@ mod schema;
 mod seeds;
 mod shards;
 mod sharing;
+mod wrappers;
 
 use std::collections::BTreeMap;
 use std::path::Path;

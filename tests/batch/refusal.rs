@@ -89,7 +89,7 @@ fn damaged_and_foreign_plans_are_refused() {
         (plan[..plan.len() / 2].to_owned(), "no whole plan"),
         (String::new(), "no whole plan"),
         ("{}".to_owned(), "missing field"),
-        (plan.replace("octray plan 1", "octray plan 9"), "octray plan 9"),
+        (plan.replace("octray plan 2", "octray plan 9"), "octray plan 9"),
         (plan.replace("\"octray\": \"", "\"octray\": \"0.0.0-"), "was made by octray 0.0.0-"),
         (plan.replacen("\"units\": 1", "\"units\": 2", 1), "damaged"),
         (plan.replace("\"shards\": 1", "\"shards\": 0"), "damaged"),
@@ -97,6 +97,8 @@ fn damaged_and_foreign_plans_are_refused() {
         (plan.replace("turn.0002.png", "../turn.png"), "damaged"),
         (plan.replace("turn.0002.png", "turn.octray/0002.png"), "damaged"),
         (plan.replace("        70,", "        70000000,"), "damaged"),
+        (plan.replace("render.spp=40", "render.spp=41"), "its hash does not fit"),
+        (plan.replace("frame 3", "frame 8"), "its hash does not fit"),
     ];
     for (text, words) in cases {
         fs::write(path.join("bad.plan"), text).unwrap();
@@ -117,9 +119,14 @@ fn damaged_and_foreign_records_are_refused() {
     let whole = fs::read_to_string(&record).unwrap();
     let other = fs::read_to_string(state(path, "0000/0000002.json")).unwrap();
     let foreign = whole.replacen("\"plan\": \"", "\"plan\": \"0", 1);
-    for (text, word) in
-        [(&whole[..20], "no whole record"), (&other, "unit 2, not 1"), (&foreign, "another plan")]
-    {
+    let counted = whole.replace("\"nan_samples\": 0", "\"nan_samples\": 7");
+    let cases = [
+        (&whole[..20], "no whole record"),
+        (&other, "unit 2, not 1"),
+        (&foreign, "another plan"),
+        (&counted, "its hash does not fit"),
+    ];
+    for (text, word) in cases {
         fs::write(&record, text).unwrap();
         for verb in ["run", "merge", "status"] {
             fails(path, &format!("{verb} turn.plan"), 3, &["0000001.json", word]);
@@ -251,6 +258,9 @@ fn pictures_of_another_job_are_not_replaced() {
     fails(path, "batch other.toml -o out", 3, &["turn.0001", "another job", "turn.octray", "--force"]);
     super::assert_same(&super::pictures(&path.join("out")), &before);
     done(path, "batch turn.toml -o out");
+    let cameras = "[[output]]\npath = \"a/turn.####.png\"\ncamera_json = true\n";
+    fs::write(path.join("cameras.toml"), format!("scene = \"seed\"\nframes = \"1-4\"\n{cameras}")).unwrap();
+    fails(path, "batch cameras.toml -o out", 3, &["turn.0001.camera.json belongs to another job"]);
     fs::write(path.join("third.toml"), job.replace("turn.####", "{name}.####")).unwrap();
     done(path, "batch third.toml -o out");
     done(path, "batch other.toml -o out --force");

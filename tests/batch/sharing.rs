@@ -121,11 +121,13 @@ fn peak_of(batch: &mut std::process::Command) -> u64 {
     last["peak_memory_bytes"].as_u64().expect("this system tells")
 }
 
-/// Peak memory of a batch whose pictures all have meshes of their own.
-fn peak_of_meshes(count: u32, max_memory: &str) -> u64 {
+/// Peak memory of a batch that shows so many scenes, each from two sides: the second one asks for the scenes of the first.
+fn peak_of_scenes(count: u32, max_memory: &str) -> u64 {
     let job = format!(
-        "scene = \"scene.toml\"\nsize = [16, 12]\nspp = 1\n[sweep]\n\"mesh.0.procedural.seed\" = {{ range = [0, {count}] }}\n\
-        [[output]]\npath = \"{{sweep}}.png\"\n"
+        "scene = \"scene.toml\"\nsize = [16, 12]\nspp = 1\nframes = \"1-{count}\"\n\
+        [[keyframes]]\nkey = \"mesh.0.transform.0.rotate_deg.angle\"\nframes = [1, 360]\nvalues = [1, 360]\n\
+        [[camera]]\nname = \"a\"\n[[camera]]\nname = \"b\"\nset = {{ fov_deg = 60 }}\n\
+        [[output]]\npath = \"{{camera}}.####.png\"\n"
     );
     let folder = folder(&job);
     std::fs::write(folder.path().join("scene.toml"), SCENE.replace("3000", "20000")).unwrap();
@@ -134,11 +136,25 @@ fn peak_of_meshes(count: u32, max_memory: &str) -> u64 {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn memory_stays_within_its_bound_however_many_pictures_there_are() {
-    let [few, many] = [5, 60].map(|count| peak_of_meshes(count, "4M"));
-    let unbounded = peak_of_meshes(60, "4G");
+fn memory_stays_within_its_bound_however_many_scenes_there_are() {
+    let [few, many] = [5, 60].map(|count| peak_of_scenes(count, "4M"));
+    let unbounded = peak_of_scenes(60, "4G");
     assert!(many < few + (8 << 20), "{few} bytes for 5 scenes, {many} for 60");
     assert!(unbounded > many + (40 << 20), "{many} bytes with a bound, {unbounded} without");
+}
+
+/// Nobody asks again for the scene of a frame that is done, so it is not kept, whatever there is room for.
+#[cfg(target_os = "linux")]
+#[test]
+fn scenes_that_are_shown_once_take_no_memory_afterwards() {
+    let peak = |frames: u32| {
+        let moving = MOVING.replace("1-6", &format!("1-{frames}")).replace("[1, 6]", "[1, 360]");
+        let folder = folder(&moving.replace("[48, 36]", "[16, 12]"));
+        std::fs::write(folder.path().join("scene.toml"), SCENE.replace("3000", "20000")).unwrap();
+        peak_bytes(folder.path(), "--threads 1")
+    };
+    let (few, many) = (peak(10), peak(150));
+    assert!(many < few + (8 << 20), "{few} bytes for 10 scenes, {many} for 150");
 }
 
 /// The tolerance is what the plan's 490 pictures more and the allocator's moods may take.

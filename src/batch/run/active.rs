@@ -1,7 +1,7 @@
 //! A unit in work: any number of threads paint its tiles.
 
 use std::sync::Mutex;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering::Relaxed};
 use std::time::Instant;
 
 use super::queue::Waiting;
@@ -23,6 +23,8 @@ pub(super) struct Active {
     taken: AtomicUsize,
     /// Tiles not yet done.
     left: AtomicUsize,
+    /// Whether a thread panicked at it.
+    spoiled: AtomicBool,
     sums: Mutex<Sums>,
 }
 
@@ -36,7 +38,7 @@ impl Work<'_> {
     pub(super) fn open(&self, of: Waiting) -> Result<Active, BatchError> {
         let unit = self.plan.unit(of.unit);
         let picture = &self.plan.pictures[unit.picture];
-        let scene = self.scenes.scene(&picture.sets, self.queue.bytes())?;
+        let scene = self.scenes.scene(picture, self.queue.bytes())?;
         if (scene.settings.size, scene.settings.spp) != (picture.size, picture.spp) {
             return Err(BatchError::Job("the plan's size or samples are not those of the scene".into()));
         }
@@ -53,6 +55,7 @@ impl Work<'_> {
             samples,
             taken: AtomicUsize::new(0),
             left: AtomicUsize::new(tiles.len()),
+            spoiled: AtomicBool::new(false),
             tiles,
             sums: Mutex::new(Sums { part, kept: Instant::now() }),
         })
@@ -63,6 +66,12 @@ impl Active {
     /// Tiles that nobody has taken.
     pub(super) fn tiles_left(&self) -> usize {
         self.tiles.len().saturating_sub(self.taken.load(Relaxed))
+    }
+
+    /// Leaves no tile to take after a panic; that one's tile is never done, so neither is the unit. True for the first panic.
+    pub(super) fn spoil(&self) -> bool {
+        self.taken.store(self.tiles.len(), Relaxed);
+        !self.spoiled.swap(true, Relaxed)
     }
 
     /// Paints tiles until none is left to take; true for the one thread after which the unit is done.
@@ -113,7 +122,11 @@ impl Tiles for Painter<'_> {
     }
 
     fn done(&self, painted: Painted<'_>) {
-        let aovs = aov_bits(self.active.scene.settings.aovs, painted.seen);
+        // Parts with later samples have none; the thread may remember those of a tile before.
+        let aovs = match self.active.samples.start {
+            0 => aov_bits(self.active.scene.settings.aovs, painted.seen),
+            _ => Vec::new(),
+        };
         let nodes = node_major(painted.sums);
         let samples = painted.pixels.len() as u64 * self.active.samples.len() as u64;
         let mut sums = self.active.sums.lock().expect("no thread panics while it stores a tile");

@@ -5,6 +5,7 @@ use std::sync::atomic::Ordering::Relaxed;
 use std::sync::mpsc::Receiver;
 
 use super::active::Active;
+use super::panics::caught;
 use super::queue::Waiting;
 use super::work::Work;
 use crate::batch::BatchError;
@@ -39,7 +40,7 @@ pub(super) fn write_all(work: &Work, finished: &Mutex<Receiver<Finished>>) {
     loop {
         let next = finished.lock().expect("no thread panics while it waits for files").recv();
         let Ok(Finished { of: Waiting { unit, size_bytes }, nan_samples, files }) = next else { return };
-        match work.store.finish(unit, nan_samples, &files) {
+        match caught(|| work.store.finish(unit, nan_samples, &files)) {
             Ok(()) => {
                 let picture = &work.plan.pictures[work.plan.unit(unit).picture].name;
                 tracing::info!(unit, picture, "unit done");

@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, MutexGuard};
 
 use super::active::Active;
 use super::finish::{Finished, encoded, write_all};
+use super::panics::caught;
 use super::queue::{Queue, Task, Waiting};
 use super::{Failure, RunOptions};
 use crate::batch::scenes::Scenes;
@@ -82,15 +83,21 @@ impl<'a> Work<'a> {
                 Task::Join(active) => Some(active),
                 Task::Open(waiting) => self.opened(waiting),
             };
-            if let Some(active) = active.filter(|active| active.paint(self, &mut scratch)) {
-                self.hand_over(&active, finished);
+            let Some(active) = active else { continue };
+            match caught(|| Ok(active.paint(self, &mut scratch))) {
+                Ok(true) => self.hand_over(&active, finished),
+                Ok(false) => {}
+                Err(error) => {
+                    scratch = Scratch::default();
+                    self.give_up(&active, &error);
+                }
             }
         }
     }
 
     /// A unit for all threads, unless it cannot be opened.
     fn opened(&self, waiting: Waiting) -> Option<Arc<Active>> {
-        match self.open(waiting) {
+        match caught(|| self.open(waiting)) {
             Ok(active) => Some(self.queue.opened(active)),
             Err(error) => {
                 self.failed(waiting.unit, &error);
@@ -104,12 +111,21 @@ impl<'a> Work<'a> {
     /// Encodes a unit whose tiles are done, and gives its files to those who write them.
     fn hand_over(&self, active: &Arc<Active>, finished: &SyncSender<Finished>) {
         self.queue.close(active);
-        match encoded(self, active) {
+        match caught(|| encoded(self, active)) {
             Ok(done) => finished.send(done).expect("writers outlive workers"),
             Err(error) => {
                 self.failed(active.of.unit, &error);
                 self.queue.release(active.of.size_bytes);
             }
+        }
+    }
+
+    /// A unit whose sums are worth nothing; other threads may yet be at its tiles.
+    fn give_up(&self, active: &Arc<Active>, error: &BatchError) {
+        if active.spoil() {
+            self.queue.close(active);
+            self.failed(active.of.unit, error);
+            self.queue.release(active.of.size_bytes);
         }
     }
 

@@ -95,6 +95,7 @@ pub fn merge(args: &MergeArgs) -> Result<(), CliError> {
         false => {
             let missing = status.units - status.done;
             let what = format!("incomplete: {missing} of {} units are missing", status.units);
+            let what = what + &nothing_here(&store, &args.output);
             Err(CliError::new(Exit::Scene, what))
         }
     }
@@ -121,6 +122,7 @@ pub fn status(args: &StatusArgs) -> Result<(), CliError> {
         false => {
             let (name, done, units) = (&plan.name, status.done, status.units);
             let missing = status.array().map_or(String::new(), |array| format!("; missing {array}"));
+            let missing = missing + &nothing_here(&store, &args.output);
             format!(
                 "{name}: {done} of {units} units, {pictures} of {} pictures{missing}",
                 plan.pictures.len()
@@ -128,6 +130,17 @@ pub fn status(args: &StatusArgs) -> Result<(), CliError> {
         }
     };
     stdio::print(format!("{text}\n").as_bytes())
+}
+
+/// What to know where nothing of a plan is done.
+fn nothing_here(store: &Store, output: &Path) -> String {
+    match store.is_begun() {
+        true => String::new(),
+        false => format!(
+            "; {} has no work of this plan: -o is the folder that the pictures go to",
+            output.display()
+        ),
+    }
 }
 
 fn folder_of(path: &Path) -> &Path {

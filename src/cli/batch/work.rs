@@ -6,13 +6,14 @@ use std::sync::Arc;
 use super::WorkArgs;
 use super::report::Summary;
 use crate::batch::run::{Failure, RunOptions, RunReport, Watch, run};
-use crate::batch::{Plan, Shard, Store, default_threads, first_lines};
+use crate::batch::{Plan, Shard, Store, first_lines};
 use crate::cli::error::{CliError, Exit};
 use crate::cli::log::Log;
 use crate::cli::pipeline::Progress;
 use crate::cli::progress::Reporter;
 use crate::cli::signals::Interrupt;
 use crate::cli::simd;
+use crate::cli::threads::threads;
 use crate::load::KeptMeshes;
 
 /// Does `work` with somebody to tell the user, and tells how it ended.
@@ -21,6 +22,7 @@ pub(super) fn with_reporter(
     work: impl FnOnce(&Reporter, &Interrupt) -> Result<Summary, CliError>,
 ) -> Result<(), CliError> {
     let reporter = Arc::new(Reporter::new(args.progress, args.quiet));
+    tell_panics(&reporter);
     let told = Log::begin(args.log.as_deref()).and_then(|log| {
         let outcome = listen(&reporter).and_then(|interrupt| work(&reporter, &interrupt));
         log.judged(outcome)
@@ -32,6 +34,15 @@ pub(super) fn with_reporter(
         }
         Err(error) => Err(reporter.failed(error)),
     }
+}
+
+/// A panic ends no batch: it is said where it was, in the way of all that is said.
+fn tell_panics(reporter: &Arc<Reporter>) {
+    let told = Arc::clone(reporter);
+    std::panic::set_hook(Box::new(move |panic| {
+        tracing::error!("{panic}");
+        told.panicked(&panic.to_string());
+    }));
 }
 
 /// Until there is work to keep, a signal ends the program.
@@ -62,10 +73,7 @@ impl Batch<'_> {
     pub(super) fn run(&self, reporter: &Reporter, interrupt: &Interrupt) -> Result<Summary, CliError> {
         let store = Store::open(self.output, self.plan, self.work.force)?;
         interrupt.defer(true);
-        let threads = match self.work.threads {
-            0 => default_threads(),
-            threads => usize::from(threads),
-        };
+        let threads = threads(self.work.threads);
         let options = RunOptions {
             shard: self.shard,
             threads,

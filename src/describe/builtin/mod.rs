@@ -70,6 +70,18 @@ pub fn builtin(name: &str) -> Result<Option<SceneDescription>, DescribeError> {
     }))
 }
 
+/// Whether a scene's name is that of a file: it has a dot or a path separator in it, so that `./seed` is a file and `seed` a
+/// built-in scene. The file system is not asked.
+pub(crate) fn is_file_name(name: &str) -> bool {
+    name.contains('.') || name.contains(std::path::is_separator)
+}
+
+/// What to tell who asked for a built-in scene that there is not.
+pub(crate) fn unknown_builtin(name: &str) -> String {
+    let known = SCENES.each_ref().map(|scene| scene.usage).join(", ");
+    format!("there is no built-in scene `{name}`: expected one of {known}, or a file's name with its ending")
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

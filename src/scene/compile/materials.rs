@@ -4,13 +4,11 @@ use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
 use super::CompileError;
+use super::rows::room;
 use crate::describe::{Material, MaterialKind, SceneDescription};
 use crate::load::{Texture, load_texture};
 use crate::scene::{MaterialRow, Materials, NO_TEXTURE, Scatter};
 use crate::shading::Shininess;
-
-/// Most material rows: a dielectric's row plus one fits the 16 bits of the nesting record.
-const MAX_ROWS: usize = u16::MAX as usize;
 
 /// Rows by name, and what is needed to make more. A material becomes a row when something is made of it: what is only
 /// declared requires nothing.
@@ -66,9 +64,7 @@ impl MaterialTable {
     }
 
     fn push(&mut self, m: &Material, id: u32) -> Result<u32, CompileError> {
-        if self.rows.len() == MAX_ROWS {
-            return Err(CompileError::TooMany { what: "materials", limit: MAX_ROWS });
-        }
+        room("materials", self.rows.len() + 1)?;
         let texture = m.texture.as_deref().map_or(Ok(NO_TEXTURE), |path| self.texture(path))?;
         let (ka, tint, emission) = (m.ka(), m.tint(), m.emission());
         let glow = std::array::from_fn(|c| (ka[c] * self.ambient[c] + emission[c]) as f32);
@@ -109,5 +105,20 @@ fn scatter(m: &Material) -> Scatter {
         MaterialKind::Diffuse => Scatter::Absorb,
         MaterialKind::Metal => Scatter::Metal,
         MaterialKind::Dielectric => Scatter::Dielectric,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::describe::Camera;
+
+    #[test]
+    fn materials_are_as_many_as_shapes_may_be() {
+        let camera = Camera::perspective([0.0; 3], [0.0, 0.0, 1.0], 40.0);
+        let mut table = MaterialTable::new(&SceneDescription::new(camera));
+        let glass = Material::new("glass", MaterialKind::Dielectric);
+        let rows: Vec<u32> = (0..70_000).map(|_| table.add(&glass).unwrap()).collect();
+        assert!(rows.iter().copied().eq(0..70_000));
     }
 }

@@ -1,5 +1,6 @@
 //! From what the user wrote to columns: the guarded border, past which nothing needs checking.
 
+mod flatten;
 mod materials;
 mod mesh;
 mod rows;

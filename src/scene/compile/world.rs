@@ -1,8 +1,9 @@
-//! Groups as ranges of rows, nested instances flattened to two levels.
+//! Objects as rows of columns, groups as ranges of rows and what they show of others.
 
 use std::collections::HashMap;
 
 use super::CompileError;
+use super::flatten::flattened;
 use super::materials::MaterialTable;
 use super::rows::{is_bent, rows};
 use crate::describe::{self, Objects, SceneDescription, Target};
@@ -11,21 +12,18 @@ use crate::intersect::PrimKind;
 use crate::load::KeptMeshes;
 use crate::scene::objects::{FirstNumbers, ObjectRows};
 
-/// Most instances of a scene: about a gigabyte of transforms.
-const MAX_INSTANCES: usize = 1 << 22;
-
 const NOTHING: Objects<'static> =
     Objects { spheres: &[], cylinders: &[], triangles: &[], quads: &[], meshes: &[], instances: &[] };
 
 /// A group while it is compiled: its rows, and what it shows of other groups.
 #[derive(Default)]
-struct Part {
-    rows: Group,
-    shows: Vec<Instance>,
+pub(super) struct Part {
+    pub(super) rows: Group,
+    pub(super) shows: Vec<Instance>,
 }
 
 impl Part {
-    fn is_empty(&self) -> bool {
+    pub(super) fn is_empty(&self) -> bool {
         let Group { triangles, spheres, cylinders } = &self.rows;
         triangles.is_empty() && spheres.is_empty() && cylinders.is_empty()
     }
@@ -80,8 +78,10 @@ impl<'a> World<'a> {
         let top = world.part(description.objects())?;
         world.parts[0] = top;
         world.planes()?;
-        let (skipped_triangles, objects) = (world.skipped_triangles, std::mem::take(&mut world.objects));
-        Ok(Filled { geometry: world.flatten()?, objects, skipped_triangles })
+        let World { mut geometry, parts, objects, skipped_triangles, .. } = world;
+        geometry.instances = flattened(&parts)?;
+        geometry.groups = parts.into_iter().map(|part| part.rows).collect();
+        Ok(Filled { geometry, objects, skipped_triangles })
     }
 
     /// Compiles objects to a part. Parts that it shows are compiled first, so that its own rows are contiguous.
@@ -239,39 +239,6 @@ impl<'a> World<'a> {
         let part = self.part(objects)?;
         Ok(self.add(part))
     }
-
-    /// Two levels: every instance, however deep, becomes one of the world, its transforms composed.
-    fn flatten(mut self) -> Result<Geometry, CompileError> {
-        let parts = std::mem::take(&mut self.parts);
-        let counts = shown(&parts);
-        if counts[0] > MAX_INSTANCES as u64 {
-            return Err(CompileError::TooMany { what: "instances", limit: MAX_INSTANCES });
-        }
-        self.geometry.groups = parts.iter().map(|p| p.rows.clone()).collect();
-        let mut waiting: Vec<Instance> = parts[0].shows.iter().rev().cloned().collect();
-        while let Some(instance) = waiting.pop() {
-            let part = &parts[instance.group];
-            if counts[instance.group] > 0 {
-                waiting.extend(part.shows.iter().rev().map(|inner| seen_through(&instance, inner)));
-            }
-            if !part.is_empty() {
-                self.geometry.instances.push(instance);
-            }
-        }
-        Ok(self.geometry)
-    }
-}
-
-/// How many instances that are not empty each part shows, through others too: groups of groups multiply, ten levels of ten
-/// are 10^10. Parts show earlier ones alone, but for the world, the first.
-fn shown(parts: &[Part]) -> Vec<u64> {
-    let mut counts = vec![0u64; parts.len()];
-    for part in (1..parts.len()).chain([0]) {
-        let through =
-            |shown: &Instance| counts[shown.group].saturating_add(u64::from(!parts[shown.group].is_empty()));
-        counts[part] = parts[part].shows.iter().map(through).fold(0, u64::saturating_add);
-    }
-    counts
 }
 
 /// A part under a transform, seen as one object.
@@ -282,16 +249,4 @@ fn placed(
     what: &str,
 ) -> Result<Instance, CompileError> {
     Ok(Instance { group, to_world: rows(transform, what)?, material: NO_MATERIAL, object })
-}
-
-/// An instance in a group as an instance of the world, through an instance of that group; the outer material wins, and
-/// what is seen is the outer object.
-fn seen_through(outer: &Instance, inner: &Instance) -> Instance {
-    let material = if outer.material == NO_MATERIAL { inner.material } else { outer.material };
-    Instance {
-        group: inner.group,
-        to_world: inner.to_world.then(&outer.to_world),
-        material,
-        object: outer.object,
-    }
 }
