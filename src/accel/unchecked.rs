@@ -73,8 +73,12 @@ pub(super) fn prefetch(accel: &Accel, child: ChildRef) {
 #[cfg(target_os = "linux")]
 const PAGE_BYTES: usize = 4096;
 
-/// Makes room for exactly so many more elements, in huge pages where the system hands them out on request: rays that go
-/// anywhere then seldom wait for addresses to be translated.
+/// Bytes below which huge pages of two megabytes would rather waste memory than save time.
+#[cfg(target_os = "linux")]
+const LEAST_HUGE_BYTES: usize = 4 << 20;
+
+/// Makes room for exactly so many more elements, where those are many in huge pages if the system hands them out on
+/// request: rays that go anywhere then seldom wait for addresses to be translated.
 pub(super) fn reserve<T>(to: &mut Vec<T>, more: usize) {
     to.reserve_exact(more);
     #[cfg(target_os = "linux")]
@@ -83,6 +87,9 @@ pub(super) fn reserve<T>(to: &mut Vec<T>, more: usize) {
         let room = to.spare_capacity_mut().as_mut_ptr_range();
         let skip = room.start.cast::<u8>().align_offset(PAGE_BYTES);
         let size = (room.end.addr() - room.start.addr()).saturating_sub(skip);
+        if size < LEAST_HUGE_BYTES {
+            return;
+        }
         // SAFETY: the advice changes how memory that nothing refers to yet is mapped, and neither contents nor validity.
         // That it may be refused changes nothing.
         let _ = unsafe {
