@@ -41,6 +41,18 @@ fn batches_of_every_split_and_number_of_threads_are_pictures_of_render() {
 }
 
 #[test]
+fn a_thread_that_took_first_samples_may_take_later_ones() {
+    let job = SMALL.replace("spp = 40", "spp = 20");
+    let folder = folder(&job);
+    done(folder.path(), "plan turn.toml --split samples --shards 3");
+    for shard in 0..3 {
+        done(folder.path(), &format!("run turn.plan --shard {shard}/3 -o out --threads 1"));
+    }
+    done(folder.path(), "merge turn.plan -o out");
+    assert_same(&pictures(&folder.path().join("out")), &undisturbed(&job));
+}
+
+#[test]
 fn two_runners_on_one_shard_do_no_harm() {
     let expected = undisturbed(SMALL);
     let folder = folder(SMALL);
