@@ -10,6 +10,7 @@ use super::instance::TreeRoot;
 use super::node::ChildRef;
 use super::pending::Pending;
 use super::query::Query;
+use super::region::Region;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::triangle::Glimpse;
 use crate::intersect::{Curved, LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
@@ -32,13 +33,17 @@ pub(super) struct PreparedRays<T: Tier> {
     pub(super) ray: RayLanes<T::Wide>,
     triangle: ForTriangles<T>,
     pub(super) cull: CullRay<f32x8>,
+    /// What roundoffs are relative to, beside the coordinates of origins.
+    pub(super) scale: f32x8,
 }
 
 impl<T: Tier> PreparedRays<T> {
     /// Prepares rays for a tree.
     #[inline(always)]
     pub(super) fn new(ray: RayLanes<T::Wide>, tree: TreeRoot) -> Self {
-        Self { cull: cull_rays::<T>(&ray, tree), triangle: T::Triangle::prepare(&ray), ray }
+        let o = ray.origin;
+        let scale = tree.scale_for(Vec3::new(T::nearest_f32(o.x), T::nearest_f32(o.y), T::nearest_f32(o.z)));
+        Self { cull: cull_rays::<T>(&ray, tree), triangle: T::Triangle::prepare(&ray), ray, scale }
     }
 
     /// The same for primitives alone.
@@ -219,6 +224,8 @@ pub(super) fn with_block(accel: &Accel, leaf: ChildRef, visitor: &mut impl Block
 /// Puts all primitives of a block to one query, eight rays to each.
 pub(super) struct EachPrimitive<'a, T: Tier, Q> {
     pub(super) rays: TestRays<'a, T>,
+    /// Around all rays, where that is worth knowing.
+    pub(super) region: Option<&'a Region>,
     pub(super) query: &'a mut Q,
     pub(super) pending: &'a mut Pending<T>,
 }
@@ -228,7 +235,12 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
         let (mut likely, mut count) = ([(0, 0); WIDTH + 1], 0);
-        for i in 0..block.count() as usize & 15 {
+        let there = (1 << block.count()) - 1;
+        let near = self.region.map_or(u32::MAX, |region| region.overlapped(|k| block.extent(k)));
+        let mut left = near & there;
+        while left != 0 {
+            let i = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
             let lanes = block.may_hit::<T, RaysByPrimitive>(i, &self.rays).bits();
             likely[count] = (i, lanes);
             count += usize::from(lanes != 0);

@@ -15,6 +15,7 @@ mod pending;
 pub mod query;
 mod ray_scene;
 mod refit;
+mod region;
 mod single;
 pub mod stream;
 #[cfg(test)]

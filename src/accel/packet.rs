@@ -1,13 +1,16 @@
 //! Eight rays down the tree together: each child box against all eight.
 //!
+//! Where the rays are short, the boxes of all children are tested first against the box around all rays ([`Region`]).
+//!
 //! An entry on the stack keeps the distance of each ray, so that popping it needs one comparison.
 
 use super::block::RaysByPrimitive;
-use super::descend::{Descend, Octant};
-use super::leaf::{EachPrimitive, TestRays, with_block};
+use super::descend::{Descend, Heading, Octant};
+use super::leaf::{EachPrimitive, PreparedRays, TestRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::pending::Pending;
 use super::query::Query;
+use super::region::Region;
 use super::{Accel, unchecked};
 use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
@@ -24,6 +27,12 @@ pub(super) struct Entry {
 impl Descend for RaysByPrimitive {
     type Entry = Entry;
     type Kept<T: Tier> = Pending<T>;
+    type Region = Option<Region>;
+
+    #[inline(always)]
+    fn region<T: Tier>(rays: &PreparedRays<T>) -> Option<Region> {
+        Region::around(rays)
+    }
 
     #[inline(always)]
     fn entry(child: ChildRef) -> Entry {
@@ -43,13 +52,16 @@ impl Descend for RaysByPrimitive {
         accel: &Accel,
         node: &Node8,
         cull: &CullRay<f32x8>,
-        octant: Octant,
+        heading: &Heading<Option<Region>>,
         (t_min, t_max): (f32x8, f32x8),
         stack: &mut Vec<Entry>,
     ) {
+        let extent = |k: usize| [f32x8::new(node.lo[k]), f32x8::new(node.hi[k])];
+        let (octant, region) = (heading.octant, heading.region.as_ref());
+        let near = region.map_or(0xff, |region| region.overlapped(extent));
         for slot in (0..WIDTH).rev().map(|i| i ^ octant.bits) {
             let child = node.child[slot];
-            if child.is_empty() {
+            if child.is_empty() || near >> slot & 1 == 0 {
                 continue;
             }
             let (enter, leave) = interval(node, slot, cull, octant, (t_min, t_max));
@@ -67,10 +79,11 @@ impl Descend for RaysByPrimitive {
         accel: &Accel,
         leaf: ChildRef,
         rays: TestRays<'_, T>,
+        heading: &Heading<Option<Region>>,
         query: &mut Q,
         pending: &mut Pending<T>,
     ) {
-        with_block(accel, leaf, &mut EachPrimitive { rays, query, pending });
+        with_block(accel, leaf, &mut EachPrimitive { rays, region: heading.region.as_ref(), query, pending });
     }
     #[inline(always)]
     fn settle<T: Tier, Q: Query<T::Wide>>(rays: TestRays<'_, T>, query: &mut Q, pending: &mut Pending<T>) {

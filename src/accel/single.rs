@@ -4,8 +4,8 @@
 
 use super::Accel;
 use super::block::PrimitivesByRay;
-use super::descend::{Descend, Octant};
-use super::leaf::{AllPrimitives, TestRays, with_block};
+use super::descend::{Descend, Heading};
+use super::leaf::{AllPrimitives, PreparedRays, TestRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::query::Query;
 use crate::intersect::Tier;
@@ -30,6 +30,10 @@ impl Entry {
 impl Descend for PrimitivesByRay {
     type Entry = Entry;
     type Kept<T: Tier> = ();
+    type Region = ();
+
+    #[inline(always)]
+    fn region<T: Tier>(_: &PreparedRays<T>) {}
 
     #[inline(always)]
     fn entry(child: ChildRef) -> Entry {
@@ -49,13 +53,13 @@ impl Descend for PrimitivesByRay {
         _: &Accel,
         node: &Node8,
         cull: &CullRay<f32x8>,
-        octant: Octant,
+        heading: &Heading<()>,
         (t_min, t_max): (f32x8, f32x8),
         stack: &mut Vec<Entry>,
     ) {
         let planes = |k: usize, upper: bool| f32x8::new(if upper { node.hi[k] } else { node.lo[k] });
         let side = |far: bool| {
-            let axis = |k: usize| planes(k, octant.upper_first(k) ^ far);
+            let axis = |k: usize| planes(k, heading.octant.upper_first(k) ^ far);
             Vec3 { x: axis(0), y: axis(1), z: axis(2) }
         };
         let (enter, leave) = cull.interval(side(false), side(true), t_min, t_max);
@@ -64,7 +68,7 @@ impl Descend for PrimitivesByRay {
             return;
         }
         let enter = enter.to_array();
-        for slot in (0..WIDTH).rev().map(|i| i ^ octant.bits) {
+        for slot in (0..WIDTH).rev().map(|i| i ^ heading.octant.bits) {
             // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
             if meets >> slot & 1 != 0 && !node.child[slot].is_empty() {
                 stack.push(Entry { near: enter[slot], child: node.child[slot] });
@@ -77,6 +81,7 @@ impl Descend for PrimitivesByRay {
         accel: &Accel,
         leaf: ChildRef,
         rays: TestRays<'_, T>,
+        _: &Heading<()>,
         query: &mut Q,
         (): &mut (),
     ) {

@@ -2,7 +2,7 @@
 
 use super::Accel;
 use super::block::PrimitivesByRay;
-use super::descend::{Descend, Octant};
+use super::descend::{Descend, Heading, Octant};
 use super::leaf::{AllPrimitives, PreparedRays, with_block};
 use super::node::ChildRef;
 use super::query::{Closest, Query};
@@ -33,7 +33,8 @@ impl Accel {
     /// A loop of its own, so that the one that is timed carries no counters.
     pub fn visits(&self, ray: &Ray, any: bool) -> Visits {
         let rays = PreparedRays::<Watertight>::new(RayLanes::splat(&RayLanes::from(ray)), self.world);
-        let (octant, t_min) = (Octant::of(&rays.cull), Watertight::below_f32(rays.ray.t_min));
+        let heading = Heading { octant: Octant::of(&rays.cull), region: () };
+        let t_min = Watertight::below_f32(rays.ray.t_min);
         let (mut visits, mut query) = (Visits::default(), Closest::new(rays.ray.t_max));
         let mut stack = vec![PrimitivesByRay::entry(ChildRef::node(self.world.node))];
         while let Some(entry) = stack.pop() {
@@ -45,7 +46,7 @@ impl Accel {
             if child.is_node() {
                 visits.nodes += 1;
                 let node = &self.nodes[child.index() as usize];
-                PrimitivesByRay::push_children(self, node, &rays.cull, octant, (t_min, limit), &mut stack);
+                PrimitivesByRay::push_children(self, node, &rays.cull, &heading, (t_min, limit), &mut stack);
                 continue;
             }
             visits.blocks += 1;
