@@ -6,11 +6,12 @@
 
 use super::Accel;
 use super::block::Walk;
+use super::instance::TreeRoot;
 use super::leaf::{PreparedRays, TestRays};
 use super::node::{ChildRef, Node8};
 use super::query::Query;
-use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
+use crate::intersect::{RayLanes, Tier};
 use crate::math::{Mask, three};
 use wide::f32x8;
 
@@ -23,8 +24,8 @@ pub(super) trait Descend: Walk {
     /// What is known of where rays go, beside their octant.
     type Region: Copy;
 
-    /// Where rays go, as far as that is worth knowing.
-    fn region<T: Tier>(rays: &PreparedRays<T>) -> Self::Region;
+    /// Where rays go in a tree, as far as that is worth knowing.
+    fn region<T: Tier>(rays: &RayLanes<T::Wide>, tree: TreeRoot) -> Self::Region;
     /// An entry that every ray reaches.
     fn entry(child: ChildRef) -> Self::Entry;
     /// Where an entry leads.
@@ -115,23 +116,31 @@ impl Costs {
     }
 }
 
-/// Puts everything below `root` that the rays may hit to the query. The stack never outgrows its capacity, which the
+/// Puts everything in a tree that the rays may hit to the query, from its root or from a node that stands for it. The stack never outgrows its capacity, which the
 /// builder bounds by the depth of the tree.
 ///
 /// Gives what a packet saved by going together, as estimated from what it visited.
 pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
     accel: &Accel,
-    root: u32,
+    tree: TreeRoot,
+    entry: Option<(&Node8, D::Region)>,
     rays: &PreparedRays<T>,
     query: &mut Q,
     stack: &mut Vec<D::Entry>,
 ) -> i32 {
     let base = stack.len();
     let t_min = T::below_f32(rays.ray.t_min);
-    let heading = Heading { octant: Octant::of(&rays.cull), region: D::region(rays) };
+    let region = entry.map_or_else(|| D::region::<T>(&rays.ray, tree), |(_, region)| region);
+    let heading = Heading { octant: Octant::of(&rays.cull), region };
     let mut kept = D::Kept::<T>::default();
     let (costs, mut saved) = (Costs::of(heading.octant, Q::ANY), Costs::START);
-    stack.push(D::entry(ChildRef::node(root)));
+    match entry {
+        Some((node, _)) => {
+            let range = (t_min, T::above_f32(query.limit()));
+            D::push_children(accel, node, &rays.cull, &heading, range, stack);
+        }
+        None => stack.push(D::entry(ChildRef::node(tree.node))),
+    }
     while stack.len() > base && !query.is_done() {
         let Some(entry) = stack.pop() else { break };
         let limit = T::above_f32(query.limit());
@@ -146,8 +155,8 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
             D::push_children(accel, node, &rays.cull, &heading, (t_min, limit), stack);
         } else if child.kind() == Accel::INSTANCE {
             D::settle::<T, Q>(rays.test(), query, &mut kept);
-            accel.visit_instance::<T, Q>(child, &rays.ray, query, |root, local, query| {
-                saved += descend::<T, D, Q>(accel, root, local, query, stack);
+            accel.visit_instance::<T, Q>(child, &rays.ray, query, |tree, local, query| {
+                saved += descend::<T, D, Q>(accel, tree, None, local, query, stack);
             });
         } else {
             D::visit_leaf::<T, Q>(accel, child, rays.test(), &heading, query, &mut kept);

@@ -143,12 +143,12 @@ impl Accel {
         leaf: ChildRef,
         ray: &RayLanes<T::Wide>,
         query: &mut Q,
-        traverse: impl FnOnce(u32, &PreparedRays<T>, &mut Q),
+        traverse: impl FnOnce(TreeRoot, &PreparedRays<T>, &mut Q),
     ) {
         let placed = self.placed(leaf);
         let local = Self::local_rays(&placed.to_world, ray);
         query.enter_instance(placed.row + 1);
-        traverse(placed.tree.node, &PreparedRays::new(local, placed.tree), query);
+        traverse(placed.tree, &PreparedRays::new(local, placed.tree), query);
         query.enter_instance(0);
     }
 }

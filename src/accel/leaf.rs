@@ -33,17 +33,13 @@ pub(super) struct PreparedRays<T: Tier> {
     pub(super) ray: RayLanes<T::Wide>,
     triangle: ForTriangles<T>,
     pub(super) cull: CullRay<f32x8>,
-    /// What roundoffs are relative to, beside the coordinates of origins.
-    pub(super) scale: f32x8,
 }
 
 impl<T: Tier> PreparedRays<T> {
     /// Prepares rays for a tree.
     #[inline(always)]
     pub(super) fn new(ray: RayLanes<T::Wide>, tree: TreeRoot) -> Self {
-        let o = ray.origin;
-        let scale = tree.scale_for(Vec3::new(T::nearest_f32(o.x), T::nearest_f32(o.y), T::nearest_f32(o.z)));
-        Self { cull: cull_rays::<T>(&ray, tree), triangle: T::Triangle::prepare(&ray), ray, scale }
+        Self { cull: cull_rays::<T>(&ray, tree), triangle: T::Triangle::prepare(&ray), ray }
     }
 
     /// The same for primitives alone.

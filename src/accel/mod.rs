@@ -6,6 +6,7 @@ pub mod brute;
 pub mod build;
 mod cover;
 mod descend;
+mod entry;
 mod instance;
 mod leaf;
 pub mod node;

@@ -6,14 +6,15 @@
 
 use super::block::RaysByPrimitive;
 use super::descend::{Descend, Heading, Octant};
-use super::leaf::{EachPrimitive, PreparedRays, TestRays, with_block};
+use super::instance::TreeRoot;
+use super::leaf::{EachPrimitive, TestRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::pending::Pending;
 use super::query::Query;
 use super::region::Region;
 use super::{Accel, unchecked};
-use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
+use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, Vec3, WIDTH, three};
 use wide::f32x8;
 
@@ -30,8 +31,8 @@ impl Descend for RaysByPrimitive {
     type Region = Option<Region>;
 
     #[inline(always)]
-    fn region<T: Tier>(rays: &PreparedRays<T>) -> Option<Region> {
-        Region::around(rays)
+    fn region<T: Tier>(rays: &RayLanes<T::Wide>, tree: TreeRoot) -> Option<Region> {
+        Region::around::<T>(std::slice::from_ref(rays), tree)
     }
 
     #[inline(always)]

@@ -1,12 +1,12 @@
-//! The box around all that the rays of a packet look at: what culls eight boxes at once where rays are short.
+//! The box around all that some rays look at: what culls eight boxes at once where rays are short.
 //!
 //! Plainly: a ray from `o` along `d` between `t_min` and `t_max` stays within the box around the two ends of that stretch.
 
 use wide::f32x8;
 
-use super::leaf::PreparedRays;
-use crate::intersect::Tier;
-use crate::math::{Lane, Mask, Real, Wide, three};
+use super::instance::TreeRoot;
+use crate::intersect::{RayLanes, Tier};
+use crate::math::{Lane, Mask, Real, Vec3, Wide, three};
 
 /// Roundoffs of the largest coordinate by which the box is widened: the 36 by which boxes of a tree are padded, 4 for where
 /// the stretches end, 4 for rays of more digits; the rest is slack, which costs nothing.
@@ -20,34 +20,15 @@ pub(super) struct Region {
 }
 
 impl Region {
-    /// The box around rays that all end; `None` where any goes on without end, or starts before its origin.
+    /// The box around the rays of some packets that all end; `None` where any goes on without end, or starts before its
+    /// origin.
     #[inline(always)]
-    pub(super) fn around<T: Tier>(rays: &PreparedRays<T>) -> Option<Self> {
-        let ray = &rays.ray;
-        let (t_min, t_max) = (T::below_f32(ray.t_min), T::above_f32(ray.t_max));
-        let asked = t_max.gt(f32x8::splat(f32::NEG_INFINITY));
-        let ends = t_max.lt(f32x8::splat(f32::MAX)) & t_min.ge(f32x8::ZERO);
-        if (asked & !ends).any() {
-            return None;
+    pub(super) fn around<T: Tier>(packets: &[RayLanes<T::Wide>], tree: TreeRoot) -> Option<Self> {
+        let mut ends = Ends::default();
+        for rays in packets {
+            ends.add::<T>(rays, tree)?;
         }
-        let from = [ray.origin.x, ray.origin.y, ray.origin.z].map(T::nearest_f32);
-        let along = [ray.direction.x, ray.direction.y, ray.direction.z].map(T::nearest_f32);
-        let ends = three(|k| [t_min, t_max].map(|t| t.mul_add_fast(along[k], from[k])));
-        let none = f32x8::splat(f32::INFINITY);
-        // Upper ends with the sign turned, so that all are minima.
-        let least = |[a, b]: [f32x8; 2]| Lane::select(asked, Lane::min(a, b), none);
-        let [x, y, z] = ends.map(least);
-        let [u, v, w] = ends.map(|[a, b]| least([-a, -b]));
-        let rows = f32x8::transpose([x, y, z, u, v, w, rays.scale, rays.scale]);
-        let [a, b, c, d, e, f, g, h] = rows;
-        let min = |a, b| Lane::min(a, b);
-        let all = min(min(min(a, b), min(c, d)), min(min(e, f), min(g, h))).to_array();
-        let size = all.iter().fold(0.0f32, |size, x| size.max(x.abs()));
-        let pad = size * (ROUNDOFFS * f32::ROUNDOFF) as f32;
-        Some(Self {
-            lo: three(|k| f32x8::splat(all[k] - pad)),
-            hi: three(|k| f32x8::splat(pad - all[k + 3])),
-        })
+        Some(ends.around())
     }
 
     /// Of eight boxes, given by least and greatest coordinates along an axis, those that overlap it, as bits.
@@ -61,18 +42,63 @@ impl Region {
     }
 }
 
+/// Ends of rays: least coordinates by axis, then greatest with the sign turned; and what roundoffs are relative to.
+struct Ends {
+    least: [f32x8; 6],
+    scale: f32x8,
+}
+
+impl Default for Ends {
+    fn default() -> Self {
+        Self { least: [f32x8::splat(f32::INFINITY); 6], scale: f32x8::ZERO }
+    }
+}
+
+impl Ends {
+    #[inline(always)]
+    fn add<T: Tier>(&mut self, rays: &RayLanes<T::Wide>, tree: TreeRoot) -> Option<()> {
+        let (t_min, t_max) = (T::below_f32(rays.t_min), T::above_f32(rays.t_max));
+        let asked = t_max.gt(f32x8::splat(f32::NEG_INFINITY));
+        let ends = t_max.lt(f32x8::splat(f32::MAX)) & t_min.ge(f32x8::ZERO);
+        if (asked & !ends).any() {
+            return None;
+        }
+        let from = [rays.origin.x, rays.origin.y, rays.origin.z].map(T::nearest_f32);
+        let along = [rays.direction.x, rays.direction.y, rays.direction.z].map(T::nearest_f32);
+        for k in 0..3 {
+            let [a, b] = [t_min, t_max].map(|t| t.mul_add_fast(along[k], from[k]));
+            let kept = |v: f32x8| Lane::select(asked, v, f32x8::splat(f32::INFINITY));
+            self.least[k] = Lane::min(self.least[k], kept(Lane::min(a, b)));
+            self.least[k + 3] = Lane::min(self.least[k + 3], kept(-Lane::max(a, b)));
+        }
+        let from = Vec3::new(from[0], from[1], from[2]);
+        let scale = Lane::max(tree.scale_for(from), from.abs().max_component());
+        self.scale = Lane::select(asked, Lane::max(self.scale, scale), self.scale);
+        Some(())
+    }
+
+    #[inline(always)]
+    fn around(self) -> Region {
+        let [a, b, c, d, e, f] = self.least;
+        let rows = f32x8::transpose([a, b, c, d, e, f, -self.scale, -self.scale]);
+        let all = rows.into_iter().reduce(Lane::min).unwrap_or_default().to_array();
+        let size = all.iter().fold(0.0f32, |size, x| size.max(x.abs()));
+        let pad = size * (ROUNDOFFS * f32::ROUNDOFF) as f32;
+        Region { lo: three(|k| f32x8::splat(all[k] - pad)), hi: three(|k| f32x8::splat(pad - all[k + 3])) }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::accel::instance::TreeRoot;
     use crate::intersect::testing::dice::Dice;
-    use crate::intersect::{Ray, RayLanes, Watertight};
+    use crate::intersect::{Ray, Watertight};
     use crate::math::{Aabb, WIDTH};
 
     fn region(rays: &[Ray; WIDTH]) -> Option<Region> {
         let world = TreeRoot::new(0, &Aabb { min: [-4.0; 3], max: [4.0; 3] });
         let each = rays.each_ref().map(RayLanes::from);
-        Region::around(&PreparedRays::<Watertight>::new(RayLanes::gather(|i| &each[i]), world))
+        Region::around::<Watertight>(&[RayLanes::gather(|i| &each[i])], world)
     }
 
     #[test]

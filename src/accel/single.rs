@@ -5,11 +5,12 @@
 use super::Accel;
 use super::block::PrimitivesByRay;
 use super::descend::{Descend, Heading};
-use super::leaf::{AllPrimitives, PreparedRays, TestRays, with_block};
+use super::instance::TreeRoot;
+use super::leaf::{AllPrimitives, TestRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::query::Query;
-use crate::intersect::Tier;
 use crate::intersect::aabb::CullRay;
+use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, Vec3, WIDTH};
 use wide::f32x8;
 
@@ -33,7 +34,7 @@ impl Descend for PrimitivesByRay {
     type Region = ();
 
     #[inline(always)]
-    fn region<T: Tier>(_: &PreparedRays<T>) {}
+    fn region<T: Tier>(_: &RayLanes<T::Wide>, _: TreeRoot) {}
 
     #[inline(always)]
     fn entry(child: ChildRef) -> Entry {

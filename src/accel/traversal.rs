@@ -2,6 +2,7 @@
 
 use super::block::{PrimitivesByRay, RaysByPrimitive};
 use super::descend::descend;
+use super::entry::Entry;
 use super::query::{AnyHit, Closest, Query};
 use super::{Accel, leaf::PreparedRays, packet, single};
 use crate::intersect::{LaneHit, PrimId, PrimKind, RayLanes, Tier, plane};
@@ -100,7 +101,7 @@ impl<'a> Traversal<'a> {
     #[inline]
     fn ask_tree<T: Tier, Q: Query<T::Wide>>(&mut self, ray: &RayLanes<T::Wide>, hint: Hint, query: &mut Q) {
         if self.together::<T, Q>(ray, hint) {
-            return self.ask_together::<T, Q>(ray, query);
+            return self.ask_together::<T, Q>(ray, None, query);
         }
         let (accel, world) = (self.accel, self.accel.world);
         for lane in 0..WIDTH {
@@ -109,22 +110,24 @@ impl<'a> Traversal<'a> {
             }
             let rays = PreparedRays::<T>::new(RayLanes::splat(&ray.get(lane)), world);
             let mut alone = query.splat_lane(lane);
-            descend::<T, PrimitivesByRay, _>(accel, world.node, &rays, &mut alone, &mut self.single_stack);
+            descend::<T, PrimitivesByRay, _>(accel, world, None, &rays, &mut alone, &mut self.single_stack);
             query.take_lane(lane, &alone);
         }
     }
 
-    /// [`Self::ask_tree`] for rays that traverse together.
+    /// [`Self::ask_tree`] for rays that traverse together, from the root or from a node that stands for it.
     #[inline]
     pub(super) fn ask_together<T: Tier, Q: Query<T::Wide>>(
         &mut self,
         ray: &RayLanes<T::Wide>,
+        entry: Option<&Entry>,
         query: &mut Q,
     ) {
         let (accel, world) = (self.accel, self.accel.world);
         let rays = PreparedRays::<T>::new(*ray, world);
+        let entry = entry.map(|entry| (&entry.node, Some(entry.region)));
         let stack = &mut self.packet_stack;
-        let saved = descend::<T, RaysByPrimitive, _>(accel, world.node, &rays, query, stack);
+        let saved = descend::<T, RaysByPrimitive, _>(accel, world, entry, &rays, query, stack);
         self.pace.learn(saved);
     }
 

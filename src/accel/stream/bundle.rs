@@ -182,7 +182,8 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             let query = &mut self.queries[j];
             if !done {
                 let rays = PreparedRays::new(*ray, placed.tree);
-                let _ = descend::<T, RaysByPrimitive, Q>(accel, root, &rays, query, stacks.packet);
+                let _ =
+                    descend::<T, RaysByPrimitive, Q>(accel, placed.tree, None, &rays, query, stacks.packet);
             }
             query.enter_instance(0);
             self.look(j);

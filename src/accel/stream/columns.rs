@@ -73,6 +73,16 @@ impl<R: Real> RayColumns<'_, R> {
         }
     }
 
+    /// True if the ray of a row does not go on without end.
+    #[inline(always)]
+    pub(super) fn ends(&self, row: usize) -> bool {
+        let t_max = match self.t_max {
+            Bound::All(t) => t,
+            Bound::Each(column) => column[row],
+        };
+        t_max.to_f32() < f32::MAX
+    }
+
     /// Asks for the memory of so many rays from row `at` on, which may be beyond the end.
     #[inline(always)]
     pub(super) fn prefetch(&self, at: usize, rows: usize) {

@@ -16,15 +16,12 @@ mod slots;
 mod spaces;
 mod view;
 
-use wide::u32x8;
-
 use super::Answers;
 use super::candidates::{Candidates, room_for};
 use super::columns::RayColumns;
 use crate::accel::Accel;
 use crate::accel::block::{Block, TriangleBlock};
-use crate::accel::node::ChildRef;
-use crate::accel::order::far_first;
+use crate::accel::node::{ChildRef, Node8};
 use crate::accel::query::Query;
 use crate::accel::unchecked::{self, Stacks};
 use crate::intersect::{LaneHit, RayLanes, Tier, TriangleTest};
@@ -81,8 +78,8 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         let mut waiting = alone.runs();
         loop {
             while (!self.taken).len() >= WIDTH {
-                let Some(first) = waiting.next() else { break };
-                self.start(accel, &Seeds::<T, A>::new(accel, rays, first));
+                let Some(run) = waiting.next() else { break };
+                self.start(accel, &Seeds::<T, A>::new(accel, rays, run.first), alone.entry(run));
             }
             if self.taken.is_empty() {
                 return;
@@ -95,17 +92,32 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         }
     }
 
-    /// Starts up to eight rays. **Needs:** eight slots that are free.
+    /// Starts up to eight rays, at the root or at a node that stands for the tree to them. **Needs:** eight slots that are free.
     #[inline(always)]
-    fn start<A: Answers<T, One = Q>>(&mut self, accel: &Accel, seeds: &Seeds<T, A>) {
+    fn start<A: Answers<T, One = Q>>(&mut self, accel: &Accel, seeds: &Seeds<T, A>, entry: Option<&Node8>) {
         if self.slots.is_empty() {
             self.slots.resize(SLOTS, Slot::of(seeds, 0));
         }
+        let mut started = SlotSet::default();
         for (i, at) in (0..seeds.count).zip(!self.taken) {
             self.slots[at].start(seeds, i, accel.world.node, self.stacks.bottom(at));
-            self.taken.insert_if(true, at);
-            self.in_nodes.insert_if(true, at);
+            started.insert_if(true, at);
         }
+        self.taken = self.taken | started;
+        let in_nodes = entry.map_or(started, |node| self.enter(accel, node, started));
+        self.in_nodes = self.in_nodes | in_nodes;
+    }
+
+    /// Takes rays through a node that stands for the tree; gives those that are in a node next.
+    #[inline(never)]
+    fn enter(&mut self, accel: &Accel, node: &Node8, started: SlotSet) -> SlotSet {
+        let mut in_nodes = SlotSet::default();
+        for at in started {
+            let slot = &mut self.slots[at];
+            slot.step(node, accel, &mut self.stacks);
+            in_nodes.insert_if(slot.next.is_node(), at);
+        }
+        in_nodes
     }
 
     /// Moves each ray that is in a node one step. In a function of its own, whose loop has all registers to itself.
@@ -117,16 +129,8 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         for at in self.in_nodes {
             let slot = &mut slots[at];
             let node = unchecked::node(accel, slot.next);
-            let (enter, meets) = slot.children(node);
-            let (order, count) = (far_first(slot.octant(), meets), meets.count_ones());
-            let top = slot.top as usize;
-            // Not read back from the stack, which would wait for what is written there.
-            let (nearest, below) = (node.child[order.last(count)], stacks.child(top - 1));
-            let next = if count == 0 { below } else { nearest };
-            let child = u32x8::new(eight(|i| node.child[i].bits())).shuffle_wrapping(order.lanes());
-            stacks.write(top, child, enter.shuffle_wrapping(order.lanes()));
-            slot.go_on(next, top + count as usize - 1, accel);
-            still.insert_if(next.is_node(), at);
+            slot.step(node, accel, stacks);
+            still.insert_if(slot.next.is_node(), at);
         }
         self.in_nodes = still;
     }

@@ -4,6 +4,9 @@
 //! 2. Packets whose rays visit much the same: together, see [`super::packet`].
 //! 3. All others: one by one, many at a time.
 //!
+//! Short rays that start near each other enter the tree below the nodes that all of them would go through, see
+//! [`super::entry`].
+//!
 //! Which way a ray takes changes no result.
 
 mod bundle;
@@ -13,7 +16,9 @@ mod flight;
 mod frustum;
 
 use super::Accel;
+use super::entry::{Entry, enter};
 use super::query::{AnyHit, Closest, Query};
+use super::region::Region;
 use super::traversal::{Hint, Pace, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Stored, Vec3, WIDTH};
@@ -26,6 +31,9 @@ use frustum::{Frustum, focus};
 
 /// Packets in a bundle.
 const BUNDLE: usize = WIDTH;
+
+/// Nodes that rays must be spared for a common entry to pay.
+const SPARED: usize = 3;
 
 /// Where the answers of a stream go.
 trait Answers<T: Tier> {
@@ -194,6 +202,8 @@ struct Bundles<'a, T: Tier> {
     /// Where a bundle does not pay, its neighbours hardly would: those whose apex is known, and those whose is guessed.
     pace: Pace,
     guess: Pace,
+    /// The same for short rays, which may enter the tree far from its root.
+    entries: Pace,
 }
 
 impl<'a, T: Tier> Bundles<'a, T> {
@@ -206,6 +216,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
             work: Box::default(),
             pace: Pace::default(),
             guess: Pace::default(),
+            entries: Pace::default(),
         }
     }
 
@@ -223,8 +234,9 @@ impl<'a, T: Tier> Bundles<'a, T> {
         let packets = (first..end).step_by(WIDTH);
         let known = apex.filter(|_| self.pace.tries());
         let guesses = apex.is_none() && hint != Hint::Incoherent && self.guess.tries();
-        if known.is_none() && !guesses && !self.traversal.may_go_together(hint, end - first) {
-            packets.for_each(|at| alone.push(at));
+        let short = apex.is_none() && hint == Hint::Auto && rays.ends(first) && self.entries.tries();
+        if known.is_none() && !guesses && !short && !self.traversal.may_go_together(hint, end - first) {
+            packets.for_each(|at| alone.push(at, None));
             return;
         }
         for (j, at) in packets.clone().enumerate() {
@@ -236,22 +248,40 @@ impl<'a, T: Tier> Bundles<'a, T> {
         let queries = &mut queries[..packets.len()];
         let apex = if guesses { self.guess_apex(queries.len()) } else { known };
         let whole = apex.is_some_and(|apex| self.trace_bundle(apex, queries));
+        let entry = if short && !whole { self.find_entry(queries.len()) } else { None };
+        let way_in = entry.map(|entry| alone.add_entry(entry.node));
         for (j, at) in packets.enumerate() {
-            if whole || self.trace_packet(j, hint, &mut queries[j]) {
+            if whole || self.trace_packet(j, hint, entry.as_ref(), &mut queries[j]) {
                 answers.store(at, &queries[j]);
             } else {
-                alone.push(at);
+                alone.push(at, way_in);
             }
         }
     }
 
     /// False if the rays of a packet had better go alone.
-    fn trace_packet<Q: Query<T::Wide>>(&mut self, j: usize, hint: Hint, query: &mut Q) -> bool {
+    fn trace_packet<Q: Query<T::Wide>>(
+        &mut self,
+        j: usize,
+        hint: Hint,
+        entry: Option<&Entry>,
+        query: &mut Q,
+    ) -> bool {
         let together = self.traversal.together::<T, Q>(&self.rays[j], hint);
         if together {
-            self.traversal.ask_together::<T, _>(&self.rays[j], query);
+            self.traversal.ask_together::<T, _>(&self.rays[j], entry, query);
         }
         together
+    }
+
+    /// Where the rays of so many packets may enter the tree, if that spares them anything.
+    fn find_entry(&mut self, packets: usize) -> Option<Entry> {
+        let world = self.accel.world;
+        let region = Region::around::<T>(&self.rays[..packets], world);
+        let entry = region.map(|region| enter(self.accel, world.node, region));
+        let entry = entry.filter(|entry| entry.spared >= SPARED);
+        self.entries.learn(if entry.is_some() { 0 } else { -1 });
+        entry
     }
 
     /// The apex behind where the rays of so many packets start, if they seem to have one.

@@ -16,6 +16,24 @@ pub(in crate::accel) fn around(landmarks: &[[f32; 3]], dice: &mut Dice, count: u
     rays
 }
 
+/// Rays from around a landmark that go anywhere, but not far.
+pub(super) fn short(landmarks: &[[f32; 3]], dice: &mut Dice, count: usize) -> Vec<Ray> {
+    let (middle, spread) = (landmark(landmarks, dice), [0.0, 1e-3, 0.1, 1.0][dice.below(4)]);
+    let far = [1e-3, 0.05, 0.5, 4.0][dice.below(4)];
+    let ray = |dice: &mut Dice| {
+        let aside = dice.point();
+        let origin = std::array::from_fn(|k| middle[k] + (spread * aside[k]) as f32);
+        let (direction, t_max) = (dice.heading().map(|x| x as f32), (far * dice.between(0.5, 1.0)) as f32);
+        let ray = Ray { t_max, ..Ray::new(origin, direction) };
+        match dice.below(16) {
+            0 => Ray { t_max: f32::NEG_INFINITY, ..ray },
+            1 => towards(origin, landmark(landmarks, dice)),
+            _ => ray,
+        }
+    };
+    (0..count).map(|_| ray(dice)).collect()
+}
+
 fn one(landmarks: &[[f32; 3]], dice: &mut Dice) -> Ray {
     let origin = match dice.below(3) {
         0 => landmark(landmarks, dice),

@@ -151,6 +151,7 @@ pub(super) fn check_tree<T: Tier>(world: &World, quality: Quality, seed: u64) ->
         let (rays, apex) = with_apex(&world.landmarks(), dice, 136);
         hits += check::<T>(&geometry, &accel, &rays, Some(apex));
         hits += check::<T>(&geometry, &accel, &rays, None);
+        hits += check::<T>(&geometry, &accel, &rays::short(&world.landmarks(), dice, 136), None);
     }
     hits
 }

@@ -7,6 +7,7 @@ use super::super::columns::RayColumns;
 use super::view::Views;
 use crate::accel::Accel;
 use crate::accel::leaf::cull_rays;
+use crate::accel::node::Node8;
 use crate::accel::query::Query;
 use crate::accel::traversal::ask_planes;
 use crate::intersect::{RayLanes, Tier};
@@ -54,25 +55,49 @@ impl<T: Tier, A: Answers<T>> Seeds<T, A> {
     }
 }
 
-/// Rows of rays that go alone, in runs of up to eight, each at a row that is a multiple of eight.
+/// Up to eight rays that go alone.
+#[derive(Clone, Copy)]
+pub(super) struct Run {
+    /// Row of the first: a multiple of eight.
+    pub(super) first: u32,
+    /// Which entry they take.
+    entry: Option<WayIn>,
+}
+
+/// The number of an entry.
+#[derive(Clone, Copy)]
+pub(in super::super) struct WayIn(usize);
+
+/// Rows of rays that go alone, in runs, and nodes that stand for the tree to some of them.
 #[derive(Default)]
 pub(in super::super) struct Alone {
-    runs: Vec<u32>,
+    runs: Vec<Run>,
+    entries: Vec<Node8>,
 }
 
 impl Alone {
     pub(in super::super) fn clear(&mut self) {
         self.runs.clear();
+        self.entries.clear();
     }
     pub(in super::super) fn is_empty(&self) -> bool {
         self.runs.is_empty()
     }
-    /// Adds the run from a row on.
-    pub(in super::super) fn push(&mut self, first: usize) {
-        self.runs.push(first as u32);
+    /// Adds the run from a row on, with what stands for the tree to its rays.
+    pub(in super::super) fn push(&mut self, first: usize, entry: Option<WayIn>) {
+        self.runs.push(Run { first: first as u32, entry });
     }
-    /// The first rows of the runs.
-    pub(super) fn runs(&self) -> impl Iterator<Item = u32> {
+    /// Adds what stands for the tree to runs to come.
+    pub(in super::super) fn add_entry(&mut self, node: Node8) -> WayIn {
+        self.entries.push(node);
+        WayIn(self.entries.len() - 1)
+    }
+    /// The runs.
+    pub(super) fn runs(&self) -> impl Iterator<Item = Run> {
         self.runs.iter().copied()
+    }
+    /// What stands for the tree to the rays of a run, if it is not the root.
+    pub(super) fn entry(&self, run: Run) -> Option<&Node8> {
+        run.entry.map(|WayIn(number)| &self.entries[number])
     }
 }

@@ -1,6 +1,6 @@
 //! A ray under way.
 
-use wide::f32x8;
+use wide::{f32x8, u32x8};
 
 use super::super::Answers;
 use super::seeds::Seeds;
@@ -9,11 +9,12 @@ use crate::accel::Accel;
 use crate::accel::block::PrimitivesByRay;
 use crate::accel::leaf::{BlockVisitor, TestRays, Testable, with_block};
 use crate::accel::node::{ChildRef, Node8};
+use crate::accel::order::far_first;
 use crate::accel::query::Query;
-use crate::accel::unchecked;
+use crate::accel::unchecked::{self, Stacks};
 use crate::intersect::aabb::CullRay;
 use crate::intersect::{LaneHit, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, Wide, three};
+use crate::math::{Lane, Mask, Vec3, Wide, eight, three};
 
 /// A ray under way; what the node pass needs stands first, in one cache line.
 #[derive(Clone, Copy)]
@@ -84,6 +85,20 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
     pub(super) fn go_on(&mut self, next: ChildRef, top: usize, accel: &Accel) {
         (self.next, self.top) = (next, top as u32);
         unchecked::prefetch(accel, next);
+    }
+
+    /// Goes through a node: on to the nearest child that the ray meets, the others on its stack, or back to what stands there.
+    #[inline(always)]
+    pub(super) fn step(&mut self, node: &Node8, accel: &Accel, stacks: &mut Stacks) {
+        let (enter, meets) = self.children(node);
+        let (order, count) = (far_first(self.octant(), meets), meets.count_ones());
+        let top = self.top as usize;
+        // Not read back from the stack, which would wait for what is written there.
+        let (nearest, below) = (node.child[order.last(count)], stacks.child(top - 1));
+        let next = if count == 0 { below } else { nearest };
+        let child = u32x8::new(eight(|i| node.child[i].bits())).shuffle_wrapping(order.lanes());
+        stacks.write(top, child, enter.shuffle_wrapping(order.lanes()));
+        self.go_on(next, top + count as usize - 1, accel);
     }
 
     /// Puts a hit in the leaf that is next to the query; true if it is accepted.
