@@ -53,7 +53,12 @@ impl Pace {
     /// Takes note of what the last one saved by going together.
     #[inline(always)]
     pub(super) fn learn(&mut self, saved: i32) {
-        self.pause = if saved >= 0 { 0 } else { (2 * self.pause + 1).min(LONGEST_PAUSE) };
+        self.learn_within(saved, LONGEST_PAUSE);
+    }
+    /// The same, with a longest pause of its own.
+    #[inline(always)]
+    pub(super) fn learn_within(&mut self, saved: i32, longest: u32) {
+        self.pause = if saved >= 0 { 0 } else { (2 * self.pause + 1).min(longest) };
         self.rest = self.pause;
     }
 }

@@ -32,6 +32,9 @@ use frustum::{Frustum, focus};
 /// Packets in a bundle.
 const BUNDLE: usize = WIDTH;
 
+/// Most bundles that are not tried after one whose rays seem to come from nowhere in common: to see that costs little.
+const GUESS_PAUSE: u32 = 3;
+
 /// Nodes that rays must be spared for a common entry to pay.
 const SPARED: usize = 3;
 
@@ -288,7 +291,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
     fn guess_apex(&mut self, packets: usize) -> Option<Apex> {
         let point = focus::<T>(&self.rays[..packets], self.accel.world);
         if point.is_none() {
-            self.guess.learn(-1);
+            self.guess.learn_within(-1, GUESS_PAUSE);
         }
         point.map(Apex::Behind)
     }
@@ -302,7 +305,7 @@ impl<'a, T: Tier> Bundles<'a, T> {
         let Some(mut bundle) = Bundle::new(rays, apex, world, (&mut self.frustum, &mut self.work), queries)
         else {
             if apex.is_behind() {
-                pace.learn(-1);
+                pace.learn_within(-1, GUESS_PAUSE);
             }
             return false;
         };
