@@ -33,7 +33,7 @@ use frustum::{Frustum, focus};
 const BUNDLE: usize = WIDTH;
 
 /// Most bundles that are not tried after one whose rays seem to come from nowhere in common: to see that costs little.
-const GUESS_PAUSE: u32 = 3;
+const GUESS_PAUSE: u32 = 7;
 
 /// Nodes that rays must be spared for a common entry to pay.
 const SPARED: usize = 3;
