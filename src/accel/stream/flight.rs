@@ -16,7 +16,7 @@ mod slots;
 mod spaces;
 mod view;
 
-use super::Answers;
+use super::answers::Answers;
 use super::candidates::{Candidates, room_for};
 use super::columns::RayColumns;
 use crate::accel::Accel;

@@ -2,7 +2,7 @@
 
 use wide::f32x8;
 
-use super::super::Answers;
+use super::super::answers::Answers;
 use super::super::columns::RayColumns;
 use super::view::Views;
 use crate::accel::Accel;

@@ -2,7 +2,7 @@
 
 use wide::{f32x8, u32x8};
 
-use super::super::Answers;
+use super::super::answers::Answers;
 use super::seeds::Seeds;
 use super::view::{Aim, TestRay, View, Views};
 use crate::accel::Accel;

@@ -1,0 +1,162 @@
+//! Packets of a stream, up to eight of them at a time: which go as a bundle, which by themselves, and which not as packets.
+
+use super::answers::Answers;
+use super::bundle::{Bundle, Stacks, Workplace};
+use super::columns::RayColumns;
+use super::flight::Alone;
+use super::frustum::{Apex, Frustum, focus};
+use super::{BUNDLE, no_rays};
+use crate::accel::Accel;
+use crate::accel::entry::{Entry, enter};
+use crate::accel::query::Query;
+use crate::accel::region::Region;
+use crate::accel::traversal::{Hint, Pace, Traversal, ask_planes};
+use crate::intersect::{RayLanes, Tier};
+use crate::math::{Stored, WIDTH};
+
+/// Most bundles that are not tried after one whose rays seem to come from nowhere in common: to see that costs little.
+const GUESS_PAUSE: u32 = 7;
+
+/// Nodes that rays must be spared for a common entry to pay.
+const SPARED: usize = 3;
+
+/// What is tried with packets before each goes its way.
+#[derive(Clone, Copy, Default, PartialEq)]
+struct Tries {
+    /// To go as a bundle with this apex.
+    apex: Option<Apex>,
+    /// To go as a bundle with an apex that has to be found.
+    guesses: bool,
+    /// To enter the tree far from its root.
+    enters: bool,
+}
+
+/// Packets, up to eight of them at a time.
+pub(super) struct Packets<'a, T: Tier> {
+    pub(super) accel: &'a Accel,
+    traversal: Traversal<'a>,
+    rays: Box<[RayLanes<T::Wide>; BUNDLE]>,
+    frustum: Box<Frustum>,
+    work: Box<Workplace<T>>,
+    /// Where a bundle does not pay, its neighbours hardly would: those whose apex is known, and those whose is guessed.
+    pace: Pace,
+    guess: Pace,
+    /// The same for short rays, which may enter the tree far from its root.
+    entries: Pace,
+}
+
+impl<'a, T: Tier> Packets<'a, T> {
+    pub(super) fn new(accel: &'a Accel) -> Self {
+        Self {
+            accel,
+            traversal: Traversal::new(accel),
+            rays: Box::new([no_rays(); BUNDLE]),
+            frustum: Box::default(),
+            work: Box::default(),
+            pace: Pace::default(),
+            guess: Pace::default(),
+            entries: Pace::default(),
+        }
+    }
+
+    /// Answers the packets from row `first` on, or notes the rows of rays that had better go alone.
+    pub(super) fn trace<A: Answers<T>, S: Stored<T::Wide>>(
+        &mut self,
+        rays: &RayColumns<S>,
+        first: usize,
+        (apex, hint): (Option<Apex>, Hint),
+        queries: &mut [A::Query; BUNDLE],
+        answers: &mut A,
+        alone: &mut Alone,
+    ) {
+        let end = rays.len.min(first + BUNDLE * WIDTH);
+        let packets = (first..end).step_by(WIDTH);
+        let tries = self.tries(apex, hint, rays.ends(first));
+        if tries == Tries::default() && !self.traversal.may_go_together(hint, end - first) {
+            packets.for_each(|at| alone.push(at, None));
+            return;
+        }
+        for (j, at) in packets.clone().enumerate() {
+            rays.load_to(at, &mut self.rays[j]);
+            queries[j].begin(self.rays[j].t_max);
+            ask_planes(self.accel, &self.rays[j], &mut queries[j]);
+        }
+        rays.prefetch(first + BUNDLE * WIDTH, BUNDLE * WIDTH);
+        let queries = &mut queries[..packets.len()];
+        let apex = if tries.guesses { self.guess_apex(queries.len()) } else { tries.apex };
+        let whole = apex.is_some_and(|apex| self.trace_bundle(apex, queries));
+        let entry = if tries.enters && !whole { self.find_entry(queries.len()) } else { None };
+        let way_in = entry.map(|entry| alone.add_entry(entry.node));
+        for (j, at) in packets.enumerate() {
+            if whole || self.trace_packet(j, hint, entry.as_ref(), &mut queries[j]) {
+                answers.store(at, &queries[j]);
+            } else {
+                alone.push(at, way_in);
+            }
+        }
+    }
+
+    /// What is tried with the packets to come, of which the first ray ends or does not.
+    #[inline(always)]
+    fn tries(&mut self, apex: Option<Apex>, hint: Hint, ends: bool) -> Tries {
+        Tries {
+            apex: apex.filter(|_| self.pace.tries()),
+            guesses: apex.is_none() && hint != Hint::Incoherent && self.guess.tries(),
+            enters: apex.is_none() && hint == Hint::Auto && ends && self.entries.tries(),
+        }
+    }
+
+    /// False if the rays of a packet had better go alone.
+    fn trace_packet<Q: Query<T::Wide>>(
+        &mut self,
+        j: usize,
+        hint: Hint,
+        entry: Option<&Entry>,
+        query: &mut Q,
+    ) -> bool {
+        let together = self.traversal.together::<T, Q>(&self.rays[j], hint);
+        if together {
+            self.traversal.ask_together::<T, _>(&self.rays[j], entry, query);
+        }
+        together
+    }
+
+    /// Where the rays of so many packets may enter the tree, if that spares them anything.
+    fn find_entry(&mut self, packets: usize) -> Option<Entry> {
+        let world = self.accel.world;
+        let region = Region::around::<T>(&self.rays[..packets], world);
+        let entry = region.map(|region| enter(self.accel, world.node, region));
+        let entry = entry.filter(|entry| entry.spared >= SPARED);
+        self.entries.learn(if entry.is_some() { 0 } else { -1 });
+        entry
+    }
+
+    /// The apex behind where the rays of so many packets start, if they seem to have one.
+    fn guess_apex(&mut self, packets: usize) -> Option<Apex> {
+        let point = focus::<T>(&self.rays[..packets], self.accel.world);
+        if point.is_none() {
+            self.guess.learn_within(-1, GUESS_PAUSE);
+        }
+        point.map(Apex::Behind)
+    }
+
+    /// False if the packets do not make a bundle, or not a good one.
+    #[inline(never)]
+    fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> bool {
+        let world = self.accel.world;
+        let rays = &self.rays[..queries.len()];
+        let pace = if apex.is_behind() { &mut self.guess } else { &mut self.pace };
+        let Some(mut bundle) = Bundle::new(rays, apex, world, (&mut self.frustum, &mut self.work), queries)
+        else {
+            if apex.is_behind() {
+                pace.learn_within(-1, GUESS_PAUSE);
+            }
+            return false;
+        };
+        let mut stacks =
+            Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
+        let done = bundle.descend(self.accel, world.node, &mut stacks);
+        pace.learn(if bundle.has_paid() { 0 } else { -1 });
+        done
+    }
+}
