@@ -1,16 +1,13 @@
-//! Where rays that stay within a region enter the tree: below what all of them would go through alike.
+//! Where rays that go nearly the same way, or not far, enter the tree: below what all of them would go through alike.
 //!
-//! Plainly: each ray starts at the root. Departure: the nodes near the root are tested once against the box around all rays,
-//! and what of them that meets becomes a node of its own, made for these rays.
+//! Plainly: each ray starts at the root. Departure: the nodes near the root are tested once against what is around all rays, a
+//! pyramid or a box, and what that meets becomes a node of its own, made for these rays.
 //!
-//! **Source:** the entry points of Reshetov, Soupikov and Hurley, Multi-Level Ray Tracing Algorithm, 2005. Changed: a box in
-//! place of a frustum, and up to eight entries side by side.
-
-use wide::f32x8;
+//! **Source:** the entry points of Reshetov, Soupikov and Hurley, Multi-Level Ray Tracing Algorithm, 2005. Changed: up to eight
+//! entries side by side.
 
 use super::Accel;
 use super::node::{ChildRef, Node8};
-use super::region::Region;
 use crate::math::{Aabb, WIDTH};
 
 /// Most nodes that are looked into.
@@ -22,18 +19,17 @@ struct Children {
     count: usize,
 }
 
-/// Where rays within a region enter the tree.
+/// Where some rays enter the tree.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Entry {
-    pub(super) region: Region,
     /// Over all that they may hit.
     pub(super) node: Node8,
     /// How many nodes it stands for.
     pub(super) spared: usize,
 }
 
-/// The entry to the tree below a root.
-pub(super) fn enter(accel: &Accel, root: u32, region: Region) -> Entry {
+/// The entry to the tree below a root, given which children of a node rays may meet, as bits.
+pub(super) fn enter(accel: &Accel, root: u32, meets: impl Fn(&Node8) -> u32) -> Entry {
     let mut children = Children { list: [(Aabb::EMPTY, ChildRef::node(root)); WIDTH], count: 1 };
     let (mut at, mut spared) = (0, 0);
     for _ in 0..MOST {
@@ -41,17 +37,17 @@ pub(super) fn enter(accel: &Accel, root: u32, region: Region) -> Entry {
             break;
         }
         let (_, child) = children.list[at];
-        let replaced = child.is_node() && children.replace(at, &accel.nodes[child.index() as usize], &region);
+        let replaced = child.is_node() && children.replace(at, &accel.nodes[child.index() as usize], &meets);
         spared += usize::from(replaced);
         at += usize::from(!replaced);
     }
-    Entry { region, node: children.into_node(), spared }
+    Entry { node: children.into_node(), spared }
 }
 
 impl Children {
-    /// Puts what a region meets of the children of a node in place of child `at`; false if there is no room.
-    fn replace(&mut self, at: usize, node: &Node8, region: &Region) -> bool {
-        let mut met = region.overlapped(|k| [f32x8::new(node.lo[k]), f32x8::new(node.hi[k])]);
+    /// Puts what rays may meet of the children of a node in place of child `at`; false if there is no room.
+    fn replace(&mut self, at: usize, node: &Node8, meets: &impl Fn(&Node8) -> u32) -> bool {
+        let mut met = meets(node);
         if self.count - 1 + met.count_ones() as usize > WIDTH {
             return false;
         }
@@ -79,6 +75,7 @@ impl Children {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::accel::region::Region;
     use crate::geometry::{Geometry, Group};
     use crate::intersect::testing::dice::Dice;
     use crate::intersect::{Ray, RayLanes, Watertight};
@@ -101,7 +98,7 @@ mod tests {
         let mut visited = 0;
         while let Some(node) = nodes.pop() {
             visited += 1;
-            let met = region.overlapped(|k| [f32x8::new(node.lo[k]), f32x8::new(node.hi[k])]);
+            let met = region.children(&node);
             for child in (0..WIDTH).filter(|slot| met >> slot & 1 != 0).map(|slot| node.child[slot]) {
                 match child.is_node() {
                     true => nodes.push(accel.nodes[child.index() as usize]),
@@ -125,9 +122,10 @@ mod tests {
             let ray = Ray { t_max: 1.0, ..Ray::new(start.map(|x| x as f32), direction) };
             let one = RayLanes::from(&ray);
             let region = Region::around::<Watertight>(&[RayLanes::gather(|_| &one)], accel.world);
-            let entry = enter(&accel, accel.world.node, region.expect("it ends"));
-            let (leaves, from_root) = reached(&accel, accel.nodes[accel.world.node as usize], &entry.region);
-            let (entered, from_entry) = reached(&accel, entry.node, &entry.region);
+            let region = region.expect("it ends");
+            let entry = enter(&accel, accel.world.node, |node| region.children(node));
+            let (leaves, from_root) = reached(&accel, accel.nodes[accel.world.node as usize], &region);
+            let (entered, from_entry) = reached(&accel, entry.node, &region);
             assert_eq!(entered, leaves);
             // The entry is a node as well.
             assert_eq!(from_entry + entry.spared, from_root + 1);

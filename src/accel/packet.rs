@@ -57,9 +57,8 @@ impl Descend for RaysByPrimitive {
         (t_min, t_max): (f32x8, f32x8),
         stack: &mut Vec<Entry>,
     ) {
-        let extent = |k: usize| [f32x8::new(node.lo[k]), f32x8::new(node.hi[k])];
         let (octant, region) = (heading.octant, heading.region.as_ref());
-        let near = region.map_or(0xff, |region| region.overlapped(extent));
+        let near = region.map_or(0xff, |region| region.children(node));
         for slot in (0..WIDTH).rev().map(|i| i ^ octant.bits) {
             let child = node.child[slot];
             if child.is_empty() || near >> slot & 1 == 0 {

@@ -5,6 +5,7 @@
 use wide::f32x8;
 
 use super::instance::TreeRoot;
+use super::node::Node8;
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, Real, Vec3, Wide, three};
 
@@ -29,6 +30,12 @@ impl Region {
             ends.add::<T>(rays, tree)?;
         }
         Some(ends.around())
+    }
+
+    /// Of the children of a node, those whose boxes overlap it, as bits.
+    #[inline(always)]
+    pub(super) fn children(&self, node: &Node8) -> u32 {
+        self.overlapped(|k| [f32x8::new(node.lo[k]), f32x8::new(node.hi[k])])
     }
 
     /// Of eight boxes, given by least and greatest coordinates along an axis, those that overlap it, as bits.

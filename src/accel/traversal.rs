@@ -4,6 +4,7 @@ use super::block::{PrimitivesByRay, RaysByPrimitive};
 use super::descend::descend;
 use super::entry::Entry;
 use super::query::{AnyHit, Closest, Query};
+use super::region::Region;
 use super::{Accel, leaf::PreparedRays, packet, single};
 use crate::intersect::{LaneHit, PrimId, PrimKind, RayLanes, Tier, plane};
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH, three};
@@ -120,17 +121,17 @@ impl<'a> Traversal<'a> {
         }
     }
 
-    /// [`Self::ask_tree`] for rays that traverse together, from the root or from a node that stands for it.
+    /// [`Self::ask_tree`] for rays that traverse together, from the root or, within a region, from an entry.
     #[inline]
     pub(super) fn ask_together<T: Tier, Q: Query<T::Wide>>(
         &mut self,
         ray: &RayLanes<T::Wide>,
-        entry: Option<&Entry>,
+        entry: Option<&(Entry, Option<Region>)>,
         query: &mut Q,
     ) {
         let (accel, world) = (self.accel, self.accel.world);
         let rays = PreparedRays::<T>::new(*ray, world);
-        let entry = entry.map(|entry| (&entry.node, Some(entry.region)));
+        let entry = entry.map(|(entry, region)| (&entry.node, *region));
         let stack = &mut self.packet_stack;
         let saved = descend::<T, RaysByPrimitive, _>(accel, world, entry, &rays, query, stack);
         self.pace.learn(saved);

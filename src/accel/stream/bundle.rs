@@ -21,10 +21,21 @@ use crate::accel::{packet, single, unchecked};
 use crate::intersect::{RayLanes, Tier, TriangleTest};
 use crate::math::{Lane, Mask, WIDTH};
 
-/// Primitives met by the pyramid up to which a bundle pays: six a ray.
-const PAYS: usize = 6 * WIDTH * WIDTH;
-/// Those after which it is given up: by then it costs less to go on than to begin otherwise, unless there are many more.
-const BUDGET: usize = 8 * WIDTH * WIDTH;
+/// Primitives met by the pyramid up to which a bundle pays, and after which it is given up: by then it costs less to go on than
+/// to begin otherwise, unless there are many more.
+#[derive(Clone, Copy)]
+struct Budget {
+    pays: usize,
+    most: usize,
+}
+
+impl Budget {
+    /// Rays that are content with any hit seldom need all that a pyramid meets: they go alone sooner.
+    const fn of(any: bool) -> Self {
+        let [pays, most] = if any { [128, 384] } else { [384, 512] };
+        Self { pays, most }
+    }
+}
 
 /// Primitives that an instance counts as for rays that start on surfaces: what is near for a camera's rays is far apart
 /// for those, so a bundle of them goes into most instances for a few rays' sake.
@@ -104,7 +115,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
 
     /// True if its rays had better go together, and its neighbours' rays too.
     pub(super) fn has_paid(&self) -> bool {
-        self.met <= PAYS
+        self.met <= Budget::of(Q::ANY).pays
     }
 
     /// Puts everything below `root` to the queries that their rays may hit; false if given up.
@@ -133,7 +144,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             } else {
                 with_block(accel, child, self);
             }
-            if self.met > BUDGET {
+            if self.met > Budget::of(Q::ANY).most {
                 stacks.bundle.truncate(base);
                 return false;
             }

@@ -31,6 +31,20 @@ struct Tries {
     enters: bool,
 }
 
+/// What became of a bundle.
+#[derive(Clone, Copy, PartialEq)]
+enum Fate {
+    /// All rays are answered.
+    Answered,
+    /// Its rays are too far apart for the size of what they meet.
+    GivenUp,
+    /// The rays are not as the apex says, or it was not tried.
+    None,
+}
+
+/// Where rays enter the tree, and the region that they stay in if that is known.
+type WayIn = (Entry, Option<Region>);
+
 /// Packets, up to eight of them at a time.
 pub(super) struct Packets<'a, T: Tier> {
     pub(super) accel: &'a Accel,
@@ -83,12 +97,22 @@ impl<'a, T: Tier> Packets<'a, T> {
         }
         rays.prefetch(first + BUNDLE * WIDTH, BUNDLE * WIDTH);
         let queries = &mut queries[..packets.len()];
-        let apex = if tries.guesses { self.guess_apex(queries.len()) } else { tries.apex };
-        let whole = apex.is_some_and(|apex| self.trace_bundle(apex, queries));
-        let entry = if tries.enters && !whole { self.find_entry(queries.len()) } else { None };
-        let way_in = entry.map(|entry| alone.add_entry(entry.node));
+        let bundle = if tries.guesses { self.guess_apex(queries.len()) } else { tries.apex };
+        let fate = bundle.map_or(Fate::None, |apex| self.trace_bundle(apex, queries));
+        if fate == Fate::Answered {
+            return packets.enumerate().for_each(|(j, at)| answers.store(at, &queries[j]));
+        }
+        let apex = if fate == Fate::GivenUp { bundle } else { apex }.filter(|_| hint == Hint::Auto);
+        let entry = match apex {
+            Some(apex) => self.enter_by_apex(apex, fate, queries.len()),
+            None if tries.enters => self.enter_by_region(queries.len()),
+            None => None,
+        };
+        let way_in = entry.map(|(entry, _)| alone.add_entry(entry.node));
+        // Where a bundle was not even tried, its rays are far apart.
+        let apart = apex.is_some() && fate == Fate::None;
         for (j, at) in packets.enumerate() {
-            if whole || self.trace_packet(j, hint, entry.as_ref(), &mut queries[j]) {
+            if !apart && self.trace_packet(j, hint, entry.as_ref(), &mut queries[j]) {
                 answers.store(at, &queries[j]);
             } else {
                 alone.push(at, way_in);
@@ -99,10 +123,11 @@ impl<'a, T: Tier> Packets<'a, T> {
     /// What is tried with the packets to come, of which the first ray ends or does not.
     #[inline(always)]
     fn tries(&mut self, apex: Option<Apex>, hint: Hint, ends: bool) -> Tries {
+        let enters = |pace: &mut Pace| hint == Hint::Auto && (apex.is_some() || ends && pace.tries());
         Tries {
             apex: apex.filter(|_| self.pace.tries()),
             guesses: apex.is_none() && hint != Hint::Incoherent && self.guess.tries(),
-            enters: apex.is_none() && hint == Hint::Auto && ends && self.entries.tries(),
+            enters: enters(&mut self.entries),
         }
     }
 
@@ -111,7 +136,7 @@ impl<'a, T: Tier> Packets<'a, T> {
         &mut self,
         j: usize,
         hint: Hint,
-        entry: Option<&Entry>,
+        entry: Option<&WayIn>,
         query: &mut Q,
     ) -> bool {
         let together = self.traversal.together::<T, Q>(&self.rays[j], hint);
@@ -121,12 +146,29 @@ impl<'a, T: Tier> Packets<'a, T> {
         together
     }
 
-    /// Where the rays of so many packets may enter the tree, if that spares them anything.
-    fn find_entry(&mut self, packets: usize) -> Option<Entry> {
+    /// Where so many packets enter the tree that have an apex in common, if their pyramid spares them anything.
+    #[inline(never)]
+    fn enter_by_apex(&mut self, apex: Apex, fate: Fate, packets: usize) -> Option<WayIn> {
+        let (world, frustum) = (self.accel.world, &mut *self.frustum);
+        let rays = &self.rays[..packets];
+        if fate == Fate::None {
+            frustum.surround::<T>(rays, apex, world)?;
+        }
+        // They start anew, whatever the bundle has found.
+        rays.iter().enumerate().for_each(|(j, rays)| frustum.look(j, T::above_f32(rays.t_max)));
+        frustum.update_reach();
+        let entry = enter(self.accel, world.node, |node| frustum.children(node).0);
+        (entry.spared >= SPARED).then_some((entry, None))
+    }
+
+    /// The same for rays that all end, and the region that they stay in.
+    #[inline(never)]
+    fn enter_by_region(&mut self, packets: usize) -> Option<WayIn> {
         let world = self.accel.world;
         let region = Region::around::<T>(&self.rays[..packets], world);
-        let entry = region.map(|region| enter(self.accel, world.node, region));
-        let entry = entry.filter(|entry| entry.spared >= SPARED);
+        let entry =
+            region.map(|region| (enter(self.accel, world.node, |node| region.children(node)), Some(region)));
+        let entry = entry.filter(|(entry, _)| entry.spared >= SPARED);
         self.entries.learn(if entry.is_some() { 0 } else { -1 });
         entry
     }
@@ -140,9 +182,9 @@ impl<'a, T: Tier> Packets<'a, T> {
         point.map(Apex::Behind)
     }
 
-    /// False if the packets do not make a bundle, or not a good one.
+    /// Traces packets as a bundle.
     #[inline(never)]
-    fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> bool {
+    fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> Fate {
         let world = self.accel.world;
         let rays = &self.rays[..queries.len()];
         let pace = if apex.is_behind() { &mut self.guess } else { &mut self.pace };
@@ -151,12 +193,12 @@ impl<'a, T: Tier> Packets<'a, T> {
             if apex.is_behind() {
                 pace.learn_within(-1, GUESS_PAUSE);
             }
-            return false;
+            return Fate::None;
         };
         let mut stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
         let done = bundle.descend(self.accel, world.node, &mut stacks);
         pace.learn(if bundle.has_paid() { 0 } else { -1 });
-        done
+        if done { Fate::Answered } else { Fate::GivenUp }
     }
 }

@@ -8,7 +8,7 @@ use super::{Bits, bits, lanes, plainly, rays};
 use crate::accel::build::Quality;
 use crate::accel::stream::{Apex, Bound, HitColumns, RayColumns, RayStream};
 use crate::accel::{Accel, Hint};
-use crate::geometry::Geometry;
+use crate::geometry::{Geometry, Group};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::{Exact, Ray, RayLanes, Tier, Watertight};
 use crate::math::{Lane, WIDTH};
@@ -168,4 +168,30 @@ proptest! {
     fn exact_streams_equal_brute_force(world in world(200), seed: u64) {
         check_world::<Exact>(&world, seed);
     }
+}
+
+/// Bundles that meet so much that they are given up, and neighbours that are not tried: their rays enter the tree elsewhere.
+#[test]
+fn rays_far_apart_for_what_they_meet_lose_no_hit() {
+    let dice = &mut Dice(17);
+    let (mut geometry, count) = (Geometry::default(), 3_000);
+    let t = &mut geometry.triangles;
+    for i in 0..count {
+        let middle = dice.point();
+        for (corner, vertices) in t.vertex.iter_mut().enumerate() {
+            vertices.push(3 * i as u32 + corner as u32);
+            let aside = dice.point();
+            (0..3).for_each(|k| t.position[k].push((middle[k] + 0.05 * aside[k]) as f32));
+        }
+        t.material.push(0);
+    }
+    geometry.groups = vec![Group { triangles: 0..count, spheres: 0..0, cylinders: 0..0 }];
+    let (accel, mut hits) = (Accel::build(&geometry), 0);
+    for _ in 0..24 {
+        let landmarks = [dice.point().map(|x| x as f32), dice.point().map(|x| x as f32)];
+        let (rays, apex) = with_apex(&landmarks, dice, 1024);
+        hits += check::<Watertight>(&geometry, &accel, &rays, Some(apex));
+        hits += check::<Watertight>(&geometry, &accel, &rays, None);
+    }
+    assert!(hits > 5_000, "{hits}");
 }
