@@ -39,7 +39,7 @@ pub(super) fn grow(
     let whole = Extent::of(&items).bounds.half_area();
     let grower = Grower { triangles, least_overlap: LEAST_OVERLAP * whole };
     let mut grown = grower.grow(items, budget, 0);
-    number(&mut grown.nodes);
+    binary::number(&mut grown.nodes);
     (grown.nodes, grown.items)
 }
 
@@ -121,20 +121,5 @@ impl Grown {
     fn append(&mut self, mut o: Self) {
         self.nodes.append(&mut o.nodes);
         self.items.append(&mut o.items);
-    }
-}
-
-/// Sets ranges to where the items ended up: leaves hold them one after the other.
-fn number(nodes: &mut [BinaryNode]) {
-    for at in (0..nodes.len()).rev() {
-        let right = nodes[at].right as usize;
-        if right != 0 {
-            nodes[at].len = nodes[at + 1].len + nodes[at + right].len;
-        }
-    }
-    let mut next = 0;
-    for node in nodes {
-        node.first = next;
-        next += if node.right == 0 { node.len } else { 0 };
     }
 }
