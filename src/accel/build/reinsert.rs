@@ -54,7 +54,7 @@ fn improved(nodes: &[BinaryNode]) -> Option<Linked> {
     let mut tree = Linked::of(nodes)?;
     for round in 0..ROUNDS {
         let (share, gain) = if round == 0 { (FIRST_SHARE, FIRST_GAIN) } else { (SHARE, GAIN) };
-        if !pays(&mut tree, of_all(share), gain) {
+        if !moving_pays(&mut tree, of_all(share), gain) {
             return (round > 0).then_some(tree);
         }
     }
@@ -71,7 +71,7 @@ struct Move {
 
 /// Moves those of so many nodes, the largest, that gain by it. True if all gain more than this share of the area of all boxes;
 /// where boxes are infinite nothing does.
-fn pays(tree: &mut Linked, count: usize, share: f64) -> bool {
+fn moving_pays(tree: &mut Linked, count: usize, share: f64) -> bool {
     let (largest, area) = largest(tree, count);
     let search = |stack: &mut Vec<_>, &at: &u32| Search::new(tree, at).best(stack);
     let mut moves: Vec<Move> =

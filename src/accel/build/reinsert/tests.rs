@@ -109,7 +109,7 @@ proptest! {
         let (nodes, items) = grown(&primitives);
         let mut tree = Linked::of(&nodes).unwrap();
         for _ in 0..4 {
-            pays(&mut tree, nodes.len(), 0.0);
+            moving_pays(&mut tree, nodes.len(), 0.0);
             let (moved, order) = tree.laid_out(&nodes, &items).unwrap();
             check(&moved, &order, 0);
             prop_assert!(moved.len() == nodes.len() && numbers(&order) == numbers(&items));
