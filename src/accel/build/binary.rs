@@ -69,3 +69,18 @@ fn open(items: &mut [Item], first: u32, depth: u32, quality: Quality) -> (Binary
     let extent = Extent::of(items);
     (BinaryNode::leaf(&extent, first, items.len()), split(items, &extent, depth, quality))
 }
+
+/// Sets ranges to where the items ended up: leaves hold them one after the other.
+pub(super) fn number(nodes: &mut [BinaryNode]) {
+    for at in (0..nodes.len()).rev() {
+        let right = nodes[at].right as usize;
+        if right != 0 {
+            nodes[at].len = nodes[at + 1].len + nodes[at + right].len;
+        }
+    }
+    let mut next = 0;
+    for node in nodes {
+        node.first = next;
+        next += if node.right == 0 { node.len } else { 0 };
+    }
+}

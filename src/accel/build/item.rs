@@ -28,7 +28,6 @@ impl Box4 {
         x * y + y * z + z * x
     }
 
-    #[cfg(test)]
     pub(super) fn of(bounds: &Aabb) -> Self {
         let ([x, y, z], [u, v, w]) = (bounds.min, bounds.max);
         Self { lo: f32x4::new([x, y, z, 0.0]), hi: f32x4::new([u, v, w, 0.0]) }

@@ -4,9 +4,10 @@
 //! 2. `bins`, `split`, `binary`: a binary tree by the binned surface area heuristic, leaves up to eight of a kind, instances
 //!    one by one.
 //!    `slab`, `spatial`, `cut`: for [`Quality::High`] also by planes that cut triangles.
-//! 3. `plan`, `collapse`: binary nodes become wide nodes and leaves, at the least expected cost; `price`: within bounded
+//! 3. `reinsert`: except for [`Quality::Fast`] subtrees move to better places.
+//! 4. `plan`, `collapse`: binary nodes become wide nodes and leaves, at the least expected cost; `price`: within bounded
 //!    memory.
-//! 4. `octant`: children take the slots that make `slot ^ octant` the order of visits.
+//! 5. `octant`: children take the slots that make `slot ^ octant` the order of visits.
 //!
 //! The tree is a function of the input alone: how many threads built it leaves no trace.
 
@@ -18,6 +19,7 @@ mod item;
 mod octant;
 mod plan;
 mod price;
+mod reinsert;
 mod slab;
 mod spatial;
 mod split;
@@ -62,10 +64,10 @@ pub const BLOCK_BYTES: [usize; KINDS] = [0, 320, 0, 0, 0, 0, 0, 0];
 pub enum Quality {
     /// Splits across the longest axis alone, leaves as full as they come.
     Fast,
-    /// The surface area heuristic on all axes.
+    /// The surface area heuristic on all axes; where boxes overlap subtrees then move to better places.
     #[default]
     Balanced,
-    /// Also cuts triangles where boxes overlap, for up to [`EXTRA_SHARE`] more references.
+    /// Before that also cuts triangles where boxes overlap, for up to [`EXTRA_SHARE`] more references.
     High,
 }
 
@@ -148,15 +150,17 @@ impl Tree {
 pub fn build(primitives: &[BuildPrimitive], quality: Quality, triangles: &impl Cuttable) -> Tree {
     assert!(primitives.len() < ChildRef::CAPACITY, "too many primitives for one tree");
     let mut items = items(primitives);
-    let nodes = if quality == Quality::High {
+    let mut nodes;
+    if quality == Quality::High {
         let budget = (items.len() as f64 * EXTRA_SHARE) as usize;
         let budget = budget.min(ChildRef::CAPACITY - 1 - items.len());
-        let nodes;
         (nodes, items) = spatial::grow(items, budget, triangles);
-        nodes
     } else {
-        binary::grow(&mut items, quality)
-    };
+        nodes = binary::grow(&mut items, quality);
+    }
+    if quality != Quality::Fast {
+        (nodes, items) = reinsert::reinsert(nodes, items);
+    }
     let Some(root) = nodes.first() else { return empty() };
     let bounds = root.bounds;
     let plans = price::affordable_plans(&nodes, &items, primitives.len());

@@ -12,10 +12,12 @@ use super::split::{halvings, part_by};
 use super::{LEAF_SIZE, MAX_DEPTH, Quality};
 
 /// Cutting is tried where the halves of the best split without it overlap by more than this share of the whole tree, and
-/// in ranges of at least so many items. With 1e-5 and 9 a tree over Sponza takes half as long again to build and rays
-/// visit no less of it.
-const LEAST_OVERLAP: f64 = 1e-4;
+/// in ranges of at least so many items. With 1e-4 trees take up to 40% longer to build and rays visit no less of them.
+const LEAST_OVERLAP: f64 = 1e-3;
 const LEAST_ITEMS: usize = 32;
+/// A split must cost so many times the plane that cuts. Where planes that gain less cut as well, camera rays are up to 7%
+/// fewer a second through halls and 8% around statues.
+const WORTH: f64 = 1.1;
 
 /// Ranges from this length on are shared by two tasks.
 const GRAIN: usize = 1 << 12;
@@ -39,7 +41,7 @@ pub(super) fn grow(
     let whole = Extent::of(&items).bounds.half_area();
     let grower = Grower { triangles, least_overlap: LEAST_OVERLAP * whole };
     let mut grown = grower.grow(items, budget, 0);
-    number(&mut grown.nodes);
+    binary::number(&mut grown.nodes);
     (grown.nodes, grown.items)
 }
 
@@ -107,7 +109,7 @@ impl<C: Cuttable> Grower<'_, C> {
         beaten: f64,
     ) -> Option<[Vec<Item>; 2]> {
         let slab = best_slab(items, extent, self.triangles)?;
-        if slab.cost >= beaten || slab.extra(items.len()) > budget {
+        if WORTH * slab.cost >= beaten || slab.extra(items.len()) > budget {
             return None;
         }
         let sides = slab.part(items, self.triangles);
@@ -121,20 +123,5 @@ impl Grown {
     fn append(&mut self, mut o: Self) {
         self.nodes.append(&mut o.nodes);
         self.items.append(&mut o.items);
-    }
-}
-
-/// Sets ranges to where the items ended up: leaves hold them one after the other.
-fn number(nodes: &mut [BinaryNode]) {
-    for at in (0..nodes.len()).rev() {
-        let right = nodes[at].right as usize;
-        if right != 0 {
-            nodes[at].len = nodes[at + 1].len + nodes[at + right].len;
-        }
-    }
-    let mut next = 0;
-    for node in nodes {
-        node.first = next;
-        next += if node.right == 0 { node.len } else { 0 };
     }
 }

@@ -9,7 +9,7 @@ use proptest::prelude::*;
 use super::*;
 use crate::accel::validate::{TreeStats, validate, validate_cut};
 
-fn cube(center: [f32; 3], half: f32, kind: u8) -> BuildPrimitive {
+pub(super) fn cube(center: [f32; 3], half: f32, kind: u8) -> BuildPrimitive {
     let bounds = Aabb { min: center.map(|c| c - half), max: center.map(|c| c + half) };
     BuildPrimitive { bounds, kind }
 }
@@ -21,7 +21,7 @@ fn noise(i: u32) -> u32 {
     x ^ x >> 16
 }
 
-fn unit(i: u32) -> f32 {
+pub(super) fn unit(i: u32) -> f32 {
     (noise(i) >> 8) as f32 / (1 << 24) as f32
 }
 
