@@ -74,6 +74,12 @@ pub(super) trait Testable: Block {
     /// Lanes whose rays may hit the primitives at a step of the walk, as far as is cheap to tell.
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T>;
 
+    /// Lanes that hold a primitive: of free ones, which hold NaN, no test is certain that they miss.
+    #[inline(always)]
+    fn there<T: Tier>(&self) -> Lanes<T> {
+        Mask::from_bits((1 << self.count()) - 1)
+    }
+
     /// Meets those lanes with the primitives at a step of the walk.
     fn hit<T: Tier, W: Walk>(
         &self,
@@ -250,7 +256,7 @@ pub(super) struct AllPrimitives<'a, T: Tier, Q> {
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for AllPrimitives<'_, T, Q> {
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &self.rays);
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &self.rays) & block.there::<T>();
         lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, &self.rays, self.query)
     }
 }

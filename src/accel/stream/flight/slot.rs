@@ -144,7 +144,7 @@ impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
         let ray = RayLanes::splat(&one);
         let rays = TestRays { triangle: &T::Triangle::prepare(&ray), ray: &ray };
         let limit = T::Wide::splat(self.query.limit());
-        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays);
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays) & block.there::<T>();
         if !lanes.any() {
             return false;
         }
