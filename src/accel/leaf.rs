@@ -89,6 +89,12 @@ pub(super) trait Testable: Block {
         limit: T::Wide,
     ) -> LaneHit<T::Wide>;
 
+    /// Of the lanes that may hit, those that do not certainly go away, as far as is cheap to tell beside meeting them.
+    #[inline(always)]
+    fn ahead<T: Tier, W: Walk>(&self, _: usize, lanes: Lanes<T>, _: &TestRays<T>) -> Lanes<T> {
+        lanes
+    }
+
     /// Of the lanes that may hit, those that a query needs, as far as is cheap to tell beside meeting them.
     #[inline(always)]
     fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
@@ -152,7 +158,7 @@ impl Testable for TriangleBlock {
 
 /// Curved primitives are met alike, each kind by functions of its own.
 macro_rules! curved {
-    ($block:ty, $primitives:ident, $may_hit:ident, $within:ident, $surely:ident, $hit:ident) => {
+    ($block:ty, $primitives:ident, $may_hit:ident, $ahead:ident, $within:ident, $surely:ident, $hit:ident) => {
         impl Testable for $block {
             #[inline(always)]
             fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
@@ -181,6 +187,11 @@ macro_rules! curved {
                 T::Curved::$surely(lanes, rays.ray, &self.$primitives::<W, _>(step), limit)
             }
 
+            #[inline(always)]
+            fn ahead<T: Tier, W: Walk>(&self, step: usize, lanes: Lanes<T>, rays: &TestRays<T>) -> Lanes<T> {
+                T::Curved::$ahead(lanes, rays.ray, &self.$primitives::<W, _>(step))
+            }
+
             /// Lanes that still ask, or those that may hit before what was found.
             #[inline(always)]
             fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
@@ -190,7 +201,7 @@ macro_rules! curved {
                 rays: &TestRays<T>,
                 query: &Q,
             ) -> Lanes<T> {
-                let limit = query.limit();
+                let (lanes, limit) = (self.ahead::<T, W>(step, lanes, rays), query.limit());
                 match Q::ANY {
                     true => lanes & limit.gt(rays.ray.t_min),
                     false => T::Curved::$within(lanes, rays.ray, &self.$primitives::<W, _>(step), limit),
@@ -200,8 +211,16 @@ macro_rules! curved {
     };
 }
 
-curved!(SphereBlock, spheres, may_hit_sphere, sphere_within, sphere_surely, hit_sphere);
-curved!(CylinderBlock, cylinders, may_hit_cylinder, cylinder_within, cylinder_surely, hit_cylinder);
+curved!(SphereBlock, spheres, may_hit_sphere, sphere_ahead, sphere_within, sphere_surely, hit_sphere);
+curved!(
+    CylinderBlock,
+    cylinders,
+    may_hit_cylinder,
+    cylinder_ahead,
+    cylinder_within,
+    cylinder_surely,
+    hit_cylinder
+);
 
 /// What is done with the block of a leaf, whatever its kind.
 pub(super) trait BlockVisitor {

@@ -85,6 +85,11 @@ pub trait Curved: Copy + Send + Sync + 'static {
     fn sphere_within<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
         lanes
     }
+    /// Of those lanes, the ones that do not certainly go away from their spheres.
+    #[inline(always)]
+    fn sphere_ahead<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>) -> L::Mask {
+        lanes
+    }
     /// Of those lanes, the ones that certainly hit before `limit`, if it costs little beside meeting them to tell.
     #[inline(always)]
     fn sphere_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
@@ -106,6 +111,11 @@ pub trait Curved: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn cylinder_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>, _limit: L) -> L::Mask {
         L::Mask::splat(false)
+    }
+    /// Of those lanes, the ones that do not certainly go away from their cylinders.
+    #[inline(always)]
+    fn cylinder_ahead<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>) -> L::Mask {
+        lanes
     }
     /// Meets those lanes with their cylinders.
     fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
@@ -180,6 +190,10 @@ impl Curved for Filtered {
         limit: L,
     ) -> L::Mask {
         if limit.lt(ray.t_max).any() { lanes & !cylinder::is_beyond(ray, c, limit) } else { lanes }
+    }
+    #[inline(always)]
+    fn cylinder_ahead<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
+        lanes & !cylinder::is_behind(ray, c)
     }
     #[inline(always)]
     fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {

@@ -145,6 +145,7 @@ impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
         let rays = TestRays { triangle: &T::Triangle::prepare(&ray), ray: &ray };
         let limit = T::Wide::splat(self.query.limit());
         let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays) & block.there::<T>();
+        let lanes = if lanes.any() { block.ahead::<T, PrimitivesByRay>(0, lanes, &rays) } else { lanes };
         if !lanes.any() {
             return false;
         }
