@@ -89,6 +89,9 @@ pub(super) trait Testable: Block {
         limit: T::Wide,
     ) -> LaneHit<T::Wide>;
 
+    /// The same for one ray and primitive `i`.
+    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real>;
+
     /// Of the lanes that may hit, those that do not certainly go away, as far as is cheap to tell beside meeting them.
     #[inline(always)]
     fn ahead<T: Tier, W: Walk>(&self, _: usize, lanes: Lanes<T>, _: &TestRays<T>) -> Lanes<T> {
@@ -151,6 +154,11 @@ impl Testable for TriangleBlock {
     }
 
     #[inline(always)]
+    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real> {
+        T::Triangle::test(ray, &T::Triangle::prepare(ray), self.corners::<RaysByPrimitive, _>(i), limit)
+    }
+
+    #[inline(always)]
     fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
         T::Triangle::glimpse(rays.ray, rays.triangle, self.corners::<W, _>(step))
     }
@@ -174,6 +182,11 @@ macro_rules! curved {
                 _: T::Wide,
             ) -> LaneHit<T::Wide> {
                 T::Curved::$hit(lanes, rays.ray, &self.$primitives::<W, _>(step))
+            }
+
+            #[inline(always)]
+            fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, _: T::Real) -> LaneHit<T::Real> {
+                T::Curved::$hit(true, ray, &self.$primitives::<RaysByPrimitive, _>(i))
             }
 
             #[inline(always)]
