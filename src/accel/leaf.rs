@@ -75,6 +75,12 @@ pub(super) trait Testable: Block {
     /// Lanes whose rays may hit the primitives at a step of the walk, as far as is cheap to tell.
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T>;
 
+    /// Lanes that hold a primitive: of free ones, which hold NaN, no test is certain that they miss.
+    #[inline(always)]
+    fn there<T: Tier>(&self) -> Lanes<T> {
+        Mask::from_bits((1 << self.count()) - 1)
+    }
+
     /// Meets those lanes with the primitives at a step of the walk.
     fn hit<T: Tier, W: Walk>(
         &self,
@@ -83,6 +89,15 @@ pub(super) trait Testable: Block {
         rays: &TestRays<T>,
         limit: T::Wide,
     ) -> LaneHit<T::Wide>;
+
+    /// The same for one ray and primitive `i`.
+    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real>;
+
+    /// Of the lanes that may hit, those that do not certainly go away, as far as is cheap to tell beside meeting them.
+    #[inline(always)]
+    fn ahead<T: Tier, W: Walk>(&self, _: usize, lanes: Lanes<T>, _: &TestRays<T>) -> Lanes<T> {
+        lanes
+    }
 
     /// Of the lanes that may hit, those that a query needs, as far as is cheap to tell beside meeting them.
     #[inline(always)]
@@ -140,6 +155,11 @@ impl Testable for TriangleBlock {
     }
 
     #[inline(always)]
+    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real> {
+        T::Triangle::test(ray, &T::Triangle::prepare(ray), self.corners::<RaysByPrimitive, _>(i), limit)
+    }
+
+    #[inline(always)]
     fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
         T::Triangle::glimpse(rays.ray, rays.triangle, self.corners::<W, _>(step))
     }
@@ -147,7 +167,7 @@ impl Testable for TriangleBlock {
 
 /// Curved primitives are met alike, each kind by functions of its own.
 macro_rules! curved {
-    ($block:ty, $primitives:ident, $may_hit:ident, $within:ident, $surely:ident, $hit:ident) => {
+    ($block:ty, $primitives:ident, $may_hit:ident, $ahead:ident, $within:ident, $surely:ident, $hit:ident) => {
         impl Testable for $block {
             #[inline(always)]
             fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
@@ -166,6 +186,11 @@ macro_rules! curved {
             }
 
             #[inline(always)]
+            fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, _: T::Real) -> LaneHit<T::Real> {
+                T::Curved::$hit(true, ray, &self.$primitives::<RaysByPrimitive, _>(i))
+            }
+
+            #[inline(always)]
             fn surely<T: Tier, W: Walk>(
                 &self,
                 step: usize,
@@ -174,6 +199,11 @@ macro_rules! curved {
                 limit: T::Wide,
             ) -> Lanes<T> {
                 T::Curved::$surely(lanes, rays.ray, &self.$primitives::<W, _>(step), limit)
+            }
+
+            #[inline(always)]
+            fn ahead<T: Tier, W: Walk>(&self, step: usize, lanes: Lanes<T>, rays: &TestRays<T>) -> Lanes<T> {
+                T::Curved::$ahead(lanes, rays.ray, &self.$primitives::<W, _>(step))
             }
 
             /// Lanes that still ask, or those that may hit before what was found.
@@ -185,7 +215,7 @@ macro_rules! curved {
                 rays: &TestRays<T>,
                 query: &Q,
             ) -> Lanes<T> {
-                let limit = query.limit();
+                let (lanes, limit) = (self.ahead::<T, W>(step, lanes, rays), query.limit());
                 match Q::ANY {
                     true => lanes & limit.gt(rays.ray.t_min),
                     false => T::Curved::$within(lanes, rays.ray, &self.$primitives::<W, _>(step), limit),
@@ -195,8 +225,16 @@ macro_rules! curved {
     };
 }
 
-curved!(SphereBlock, spheres, may_hit_sphere, sphere_within, sphere_surely, hit_sphere);
-curved!(CylinderBlock, cylinders, may_hit_cylinder, cylinder_within, cylinder_surely, hit_cylinder);
+curved!(SphereBlock, spheres, may_hit_sphere, sphere_ahead, sphere_within, sphere_surely, hit_sphere);
+curved!(
+    CylinderBlock,
+    cylinders,
+    may_hit_cylinder,
+    cylinder_ahead,
+    cylinder_within,
+    cylinder_surely,
+    hit_cylinder
+);
 
 /// What is done with the block of a leaf, whatever its kind.
 pub(super) trait BlockVisitor {
@@ -258,7 +296,7 @@ pub(super) struct AllPrimitives<'a, T: Tier, Q> {
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for AllPrimitives<'_, T, Q> {
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &self.rays);
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &self.rays) & block.there::<T>();
         lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, &self.rays, self.query)
     }
 }

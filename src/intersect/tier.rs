@@ -3,7 +3,7 @@
 use wide::{f32x8, f64x8};
 
 use super::triangle::{ExactVolumes, FilteredVolumes, Glimpse, Woop};
-use super::{LaneHit, RayLanes, cylinder, doubt, sphere};
+use super::{LaneHit, RayLanes, cylinder, sphere};
 use crate::math::{Lane, Mask, Real, Stored, Vec3, WIDTH, Wide};
 
 /// A triangle test: what it prepares once a ray, and what it asks of a triangle.
@@ -79,9 +79,15 @@ pub trait Curved: Copy + Send + Sync + 'static {
     fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> L::Mask;
     /// Meets those lanes with their spheres.
     fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> LaneHit<L>;
-    /// Of those lanes, the ones that may hit before `limit`, if it costs little beside meeting them to tell.
+    /// Of those lanes, the ones that may hit before `limit`, if it costs little beside meeting them to tell: not where no ray
+    /// has found anything yet.
     #[inline(always)]
     fn sphere_within<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
+        lanes
+    }
+    /// Of those lanes, the ones that do not certainly go away from their spheres.
+    #[inline(always)]
+    fn sphere_ahead<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>) -> L::Mask {
         lanes
     }
     /// Of those lanes, the ones that certainly hit before `limit`, if it costs little beside meeting them to tell.
@@ -105,6 +111,11 @@ pub trait Curved: Copy + Send + Sync + 'static {
     #[inline(always)]
     fn cylinder_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>, _limit: L) -> L::Mask {
         L::Mask::splat(false)
+    }
+    /// Of those lanes, the ones that do not certainly go away from their cylinders.
+    #[inline(always)]
+    fn cylinder_ahead<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>) -> L::Mask {
+        lanes
     }
     /// Meets those lanes with their cylinders.
     fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
@@ -157,7 +168,7 @@ impl Curved for Filtered {
     }
     #[inline(always)]
     fn sphere_within<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
-        if doubt::is_exact::<L>() { lanes & !sphere::is_beyond(ray, s, limit) } else { lanes }
+        if limit.lt(ray.t_max).any() { lanes & !sphere::is_beyond(ray, s, limit) } else { lanes }
     }
     #[inline(always)]
     fn sphere_surely<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
@@ -178,7 +189,11 @@ impl Curved for Filtered {
         c: &cylinder::Lanes<L>,
         limit: L,
     ) -> L::Mask {
-        if doubt::is_exact::<L>() { lanes & !cylinder::is_beyond(ray, c, limit) } else { lanes }
+        if limit.lt(ray.t_max).any() { lanes & !cylinder::is_beyond(ray, c, limit) } else { lanes }
+    }
+    #[inline(always)]
+    fn cylinder_ahead<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
+        lanes & !cylinder::is_behind(ray, c)
     }
     #[inline(always)]
     fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {

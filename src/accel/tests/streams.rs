@@ -1,6 +1,8 @@
 //! Streams of rays against the plain loop, whatever they are told that the rays have in common.
 
 use proptest::prelude::*;
+use proptest::strategy::ValueTree;
+use proptest::test_runner::TestRunner;
 
 use super::QUALITIES;
 use super::scenes::{World, world};
@@ -10,7 +12,7 @@ use crate::accel::stream::{Apex, Bound, HitColumns, RayColumns, RayStream};
 use crate::accel::{Accel, Hint};
 use crate::geometry::{Geometry, Group};
 use crate::intersect::testing::dice::Dice;
-use crate::intersect::{Exact, Ray, RayLanes, Tier, Watertight};
+use crate::intersect::{Exact, Fast, Ray, RayLanes, Tier, Watertight};
 use crate::math::{Lane, WIDTH};
 
 /// Rays of a tier by columns, padded.
@@ -154,6 +156,47 @@ pub(super) fn check_tree<T: Tier>(world: &World, quality: Quality, seed: u64) ->
         hits += check::<T>(&geometry, &accel, &rays::short(&world.landmarks(), dice, 136), None);
     }
     hits
+}
+
+/// In `Fast` a tree may cull what the plain loop lets through ([`super`] says what): where both see the same primitive, they
+/// see the same bits, whichever way a stream takes. Gives how many differ, and how many were asked.
+fn differing_in_fast(geometry: &Geometry, asked: &[Ray], apex: Option<Apex>) -> (usize, usize) {
+    let (accel, rays) = (Accel::build(geometry), Columns::of::<Fast>(asked));
+    let expected: Vec<_> = rays.rays.iter().map(|ray| plainly::<Fast>(geometry, ray)).collect();
+    let mut stream = RayStream::<Fast>::new(&accel);
+    let (mut differing, mut count) = (0, 0);
+    for hint in [Hint::Auto, Hint::Coherent, Hint::Incoherent] {
+        let (hits, any) = found(&mut stream, &rays, expected.len(), (apex, hint));
+        for ((hit, expected), any) in hits.iter().zip(&expected).zip(any) {
+            let which = |hit: &Option<Bits>| hit.map(|hit| (hit.3, hit.4));
+            let same = which(hit) == which(expected) && any == hit.is_some();
+            assert!(!same || hit == expected, "{hint:?} {apex:?}: {hit:?}, one ray {expected:?}");
+            differing += usize::from(!same);
+        }
+        count += expected.iter().flatten().count();
+    }
+    (differing, count)
+}
+
+#[test]
+fn fast_streams_equal_brute_force_but_for_what_culling_loses() {
+    let mut runner = TestRunner::deterministic();
+    let (mut differing, mut hits) = (0, 0);
+    for seed in 0..60 {
+        let world = world(200).new_tree(&mut runner).unwrap().current();
+        let (geometry, landmarks, dice) = (world.geometry(), world.landmarks(), &mut Dice(seed));
+        let mut sum = |rays: &[Ray], apex| {
+            let (d, n) = differing_in_fast(&geometry, rays, apex);
+            (differing, hits) = (differing + d, hits + n);
+        };
+        sum(&rays::around(&landmarks, dice, 256), None);
+        for _ in 0..2 {
+            let (rays, apex) = with_apex(&landmarks, dice, 128);
+            sum(&rays, Some(apex));
+            sum(&rays, None);
+        }
+    }
+    assert!(hits > 30_000 && differing * 5_000 < hits, "{differing} of {hits} differ");
 }
 
 proptest! {

@@ -329,6 +329,31 @@ pub fn may_hit<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> L::Mask {
     !(misses & slack.min(size).gt(L::constant(64.0 * f64::from(f32::MIN_POSITIVE))))
 }
 
+/// Lanes whose rays certainly start outside of the side and go away from the axis, or beside a cap and away from that. Distances
+/// across are multiplied by the axis' length, so that nothing is divided; the slack is four times what rounding may amount
+/// to. NaN decides nothing, nor do sizes whose products could overflow or underflow.
+#[inline(always)]
+pub fn is_behind<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> L::Mask {
+    let (axis, f, d, zero) = (c.to - c.from, ray.origin - c.from, ray.direction, L::zero());
+    let (axis2, along_f, along_d) = (fused_dot(axis, axis), fused_dot(f, axis), fused_dot(d, axis));
+    let (b, along) = (fused_dot(f, d) * axis2, along_f * along_d);
+    let leaves_slab = (along_f.lt(zero) & along_d.lt(zero)) | (along_f.gt(axis2) & along_d.gt(zero));
+    if !(b.gt(along) | leaves_slab).any() {
+        return L::Mask::splat(false);
+    }
+    let roundoffs = L::constant(f64::from(gamma(16)));
+    let [size_f, size_d, size_axis] = [f, d, axis].map(doubt::size);
+    let [off_f, off_d, off_axis] = [size_f, size_d, size_axis].map(|x| x * size_axis * roundoffs);
+    let leaves_slab = (along_f.lt(-off_f) & along_d.lt(-off_d))
+        | ((along_f - axis2).gt(off_f + off_axis) & along_d.gt(off_d));
+    let reach2 = c.radius * c.radius + size_f * size_f * (roundoffs * L::constant(4.0));
+    let is_outside = ((fused_dot(f, f) - reach2) * axis2).gt(along_f * along_f);
+    let leaves_side = is_outside & (b - along).gt(size_f * size_axis * off_d);
+    let is_moderate = size_f.min(size_d).min(size_axis).gt(L::constant(1e-6))
+        & size_f.max(size_d).max(size_axis).lt(L::constant(1e6));
+    (leaves_slab | leaves_side) & is_moderate & ray.t_min.ge(zero)
+}
+
 /// The box of a cylinder, rounded outwards: along each axis a cap reaches `r sqrt(1 - a^2)` with `a` the share of the
 /// cylinder's axis in it.
 pub fn bounds(from: [f32; 3], to: [f32; 3], radius: f32) -> Aabb {

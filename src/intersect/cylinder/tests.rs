@@ -2,7 +2,7 @@
 
 use super::oracle::{Cylinder, Part, meetings};
 use super::products::Plain;
-use super::{Lanes, leaves, solve, solve_rounded};
+use super::{Lanes, is_behind, leaves, solve, solve_rounded, solve_widened};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
 use crate::intersect::tier::Filtered;
@@ -354,6 +354,27 @@ fn only_hits_beyond_the_limit_are_left_out() {
         left_out += usize::from(!within);
     }
     assert!(left_out > 1_000, "{left_out}");
+}
+
+/// The cheap test leaves out only what goes away, by more than rounding, from wherever near the surface it starts.
+#[test]
+fn rays_that_are_said_to_go_away_have_no_hit_ahead() {
+    let mut dice = Dice(52);
+    let mut behind = 0;
+    for _ in 0..100_000 {
+        let (r, c) = [anywhere, at_the_rim, along_the_axis][dice.below(3)](&mut dice);
+        let hit = solve_widened(true, &r, &c);
+        let off = [0.0, dice.magnitude(-8.0, 0.0)][dice.below(2)] as f32;
+        let from = r.origin + r.direction * (if hit.mask { hit.t } else { 0.0 } + off);
+        let d = [r.direction, -r.direction][dice.below(2)];
+        let r = RayLanes { origin: from, direction: d, t_min: 0.0, ..r };
+        if is_behind(&r, &c) {
+            behind += 1;
+            let hit = solve_widened(true, &r, &c);
+            assert!(!(hit.mask && hit.t > 0.0), "{hit:?}: {c:?} by {r:?}");
+        }
+    }
+    assert!(behind > 10_000, "{behind}");
 }
 
 /// What is not asked of rays that go away would not have been taken.

@@ -159,9 +159,16 @@ impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
         let ray = RayLanes::splat(&one);
         let rays = TestRays { triangle: &T::Triangle::prepare(&ray), ray: &ray };
         let limit = T::Wide::splat(self.query.limit());
-        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays);
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays) & block.there::<T>();
+        let lanes = if lanes.any() { block.ahead::<T, PrimitivesByRay>(0, lanes, &rays) } else { lanes };
         if !lanes.any() {
             return false;
+        }
+        if lanes.bits().is_power_of_two() {
+            // Most often it is one, and costs less alone.
+            let i = lanes.bits().trailing_zeros() as usize & 7;
+            let found = block.hit_one::<T>(i, &one, self.query.limit());
+            return self.query.accept(&one, &found, block.ids()[i]);
         }
         let hit: LaneHit<T::Wide> = block.hit::<T, PrimitivesByRay>(0, lanes, &rays, limit);
         let (mut left, mut accepted) = (hit.mask.bits(), false);
