@@ -7,7 +7,7 @@ use wide::f32x8;
 use super::instance::TreeRoot;
 use super::node::Node8;
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Lane, Mask, Real, Vec3, Wide, three};
+use crate::math::{Lane, Mask, Real, Vec3, three};
 
 /// Roundoffs of the largest coordinate by which the box is widened: the 36 by which boxes of a tree are padded, 4 for where
 /// the stretches end, 4 for rays of more digits; the rest is slack, which costs nothing.
