@@ -69,7 +69,7 @@ fn cut_triangles_must_be_covered() {
     let mut stick = |i: usize| {
         let a = dice.point().map(|x| 5.0 * x as f32);
         let aside = dice.point().map(|x| 0.02 * x as f32);
-        let length = if i % 5 == 0 { 8.0 } else { 0.1 };
+        let length = if i.is_multiple_of(5) { 8.0 } else { 0.1 };
         [a, a.map(|x| x + length), std::array::from_fn(|k| a[k] + aside[k])]
     };
     let sticks = Sticks((0..300).map(&mut stick).collect());
