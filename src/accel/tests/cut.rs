@@ -18,7 +18,13 @@ fn hard_world(seed: u64) -> (World, Vec<Corners>) {
     // Mostly of one kind: where kinds mix, the largest decide, and cutting them seldom pays.
     let most = dice.below(KINDS);
     let kind = |dice: &mut Dice| if dice.below(16) == 0 { dice.below(KINDS) } else { most };
-    let triangle = |dice: &mut Dice| hard_triangle(kind(dice), dice).map(|p| p.map(|x| scale * x));
+    // Cutting pays most for a few large ones among small ones.
+    let large = [1, 8][dice.below(2)];
+    let triangle = |dice: &mut Dice| {
+        let corners = hard_triangle(kind(dice), dice).map(|p| p.map(|x| scale * x));
+        let small = corners.map(|p| std::array::from_fn(|k| corners[0][k] + 0.2 * (p[k] - corners[0][k])));
+        if dice.below(large) == 0 { corners } else { small }
+    };
     let triangles: Vec<Corners> = (0..100 + dice.below(500)).map(|_| triangle(&mut dice)).collect();
     let mut world = World::default();
     for corners in &triangles {

@@ -54,7 +54,7 @@ fn wrong_boxes_leaves_and_totals_are_found() {
     assert_eq!(fault(|tree| tree.bounds.max[0] += 1.0), TreeFault::Bounds);
 }
 
-/// Long triangles that cross each other, so that cutting pays.
+/// Long triangles among short ones, so that cutting pays.
 struct Sticks(Vec<[[f32; 3]; 3]>);
 
 impl Cuttable for Sticks {
@@ -66,12 +66,13 @@ impl Cuttable for Sticks {
 #[test]
 fn cut_triangles_must_be_covered() {
     let mut dice = Dice(5);
-    let mut stick = || {
+    let mut stick = |i: usize| {
         let a = dice.point().map(|x| 5.0 * x as f32);
         let aside = dice.point().map(|x| 0.02 * x as f32);
-        [a, a.map(|x| x + 5.0), std::array::from_fn(|k| a[k] + aside[k])]
+        let length = if i.is_multiple_of(5) { 8.0 } else { 0.1 };
+        [a, a.map(|x| x + length), std::array::from_fn(|k| a[k] + aside[k])]
     };
-    let sticks = Sticks((0..300).map(|_| stick()).collect());
+    let sticks = Sticks((0..300).map(&mut stick).collect());
     let bounds = |&corners: &[[f32; 3]; 3]| crate::intersect::triangle::bounds(corners);
     let primitives: Vec<_> =
         sticks.0.iter().map(|corners| BuildPrimitive { bounds: bounds(corners), kind: 1 }).collect();
