@@ -103,9 +103,9 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             self.slots[at].start(seeds, i, accel.world.node, self.stacks.bottom(at));
             started.insert_if(true, at);
         }
-        self.taken = self.taken | started;
+        self.taken |= started;
         let in_nodes = entry.map_or(started, |node| self.enter(accel, node, started));
-        self.in_nodes = self.in_nodes | in_nodes;
+        self.in_nodes |= in_nodes;
     }
 
     /// Takes rays through a node that stands for the tree; gives those that are in a node next.
