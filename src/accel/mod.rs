@@ -70,6 +70,10 @@ impl Accel {
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
+    /// True if groups are seen through instances.
+    fn has_instances(&self) -> bool {
+        !self.instances.is_empty()
+    }
     /// Nodes of all trees.
     pub fn node_count(&self) -> usize {
         self.nodes.len()

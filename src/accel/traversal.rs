@@ -137,13 +137,19 @@ impl<'a> Traversal<'a> {
         self.pace.learn(saved);
     }
 
+    /// True if rays share most of the tree wherever they go.
+    #[inline(always)]
+    pub(super) fn is_small(&self) -> bool {
+        self.accel.nodes.len() <= SMALL_TREE
+    }
+
     /// False if no packet of so many rays would traverse together.
     #[inline(always)]
     pub(super) fn may_go_together(&mut self, hint: Hint, rays: usize) -> bool {
         match hint {
             Hint::Coherent => true,
             Hint::Incoherent => false,
-            Hint::Auto if self.accel.nodes.len() <= SMALL_TREE => true,
+            Hint::Auto if self.is_small() => true,
             Hint::Auto => !self.pace.rests(rays.div_ceil(WIDTH) as u32),
         }
     }
@@ -159,7 +165,7 @@ impl<'a> Traversal<'a> {
         match hint {
             Hint::Coherent => true,
             Hint::Incoherent => false,
-            Hint::Auto if self.accel.nodes.len() <= SMALL_TREE => true,
+            Hint::Auto if self.is_small() => true,
             Hint::Auto => (Q::ANY || one_octant(ray.direction)) && self.pace.tries(),
         }
     }

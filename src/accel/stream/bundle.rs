@@ -21,21 +21,13 @@ use crate::accel::{packet, single, unchecked};
 use crate::intersect::{RayLanes, Tier, TriangleTest};
 use crate::math::{Lane, Mask, WIDTH};
 
-/// Primitives met by the pyramid up to which a bundle pays, and after which it is given up: by then it costs less to go on than
-/// to begin otherwise, unless there are many more.
-#[derive(Clone, Copy)]
-struct Budget {
-    pays: usize,
-    most: usize,
-}
-
-impl Budget {
-    /// Rays that are content with any hit seldom need all that a pyramid meets: they go alone sooner.
-    const fn of(any: bool) -> Self {
-        let [pays, most] = if any { [128, 384] } else { [384, 512] };
-        Self { pays, most }
-    }
-}
+/// Primitives met by the pyramid up to which a bundle pays: six a ray.
+const PAYS: usize = 6 * WIDTH * WIDTH;
+/// Those after which it is given up: by then it costs less to go on than to begin otherwise, unless there are many more.
+const BUDGET: usize = 8 * WIDTH * WIDTH;
+/// How many a triangle counts as where any hit will do: rays that go alone seldom need all that a pyramid meets, and are fast
+/// at triangles.
+const TRIANGLE_FOR_ANY: usize = 2;
 
 /// Primitives that an instance counts as for rays that start on surfaces: what is near for a camera's rays is far apart
 /// for those, so a bundle of them goes into most instances for a few rays' sake.
@@ -86,7 +78,7 @@ pub(super) struct Bundle<'a, T: Tier, Q> {
     rays: &'a [RayLanes<T::Wide>],
     work: &'a mut Workplace<T>,
     queries: &'a mut [Q],
-    /// Primitives that the pyramid met.
+    /// Primitives that the pyramid met, by what they count as.
     met: usize,
 }
 
@@ -115,7 +107,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
 
     /// True if its rays had better go together, and its neighbours' rays too.
     pub(super) fn has_paid(&self) -> bool {
-        self.met <= Budget::of(Q::ANY).pays
+        self.met <= PAYS
     }
 
     /// Puts everything below `root` to the queries that their rays may hit; false if given up.
@@ -144,7 +136,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             } else {
                 with_block(accel, child, self);
             }
-            if self.met > Budget::of(Q::ANY).most {
+            if self.met > BUDGET {
                 stacks.bundle.truncate(base);
                 return false;
             }
@@ -185,7 +177,8 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         let inside = Bundle::<T, Q>::new(rays, apex, placed.tree, (&mut work.0, &mut work.1), self.queries);
         let done = inside.is_some_and(|mut inside| {
             let done = inside.descend(accel, root, stacks);
-            self.met += inside.met;
+            // Rays that go alone are slower at instances: in there a triangle counts as any primitive.
+            self.met += inside.met / if Q::ANY { TRIANGLE_FOR_ANY } else { 1 };
             done
         });
         self.work.inner = Some(work);

@@ -86,7 +86,11 @@ impl<'a, T: Tier> Packets<'a, T> {
         let end = rays.len.min(first + BUNDLE * WIDTH);
         let packets = (first..end).step_by(WIDTH);
         let tries = self.tries(apex, hint, rays.ends(first));
-        if tries == Tries::default() && !self.traversal.may_go_together(hint, end - first) {
+        // Bundles are not tried where rays were too far apart for one. Alone they would go through instances one by one.
+        let apart = hint == Hint::Auto
+            && (apex.is_some() && tries.apex.is_none())
+            && !(self.traversal.is_small() || self.accel.has_instances());
+        if tries == Tries::default() && !apart && !self.traversal.may_go_together(hint, end - first) {
             packets.for_each(|at| alone.push(at, None));
             return;
         }
@@ -102,15 +106,12 @@ impl<'a, T: Tier> Packets<'a, T> {
         if fate == Fate::Answered {
             return packets.enumerate().for_each(|(j, at)| answers.store(at, &queries[j]));
         }
-        let apex = if fate == Fate::GivenUp { bundle } else { apex }.filter(|_| hint == Hint::Auto);
-        let entry = match apex {
+        let entry = match if apart { apex } else { bundle.filter(|_| fate == Fate::GivenUp) } {
             Some(apex) => self.enter_by_apex(apex, fate, queries.len()),
             None if tries.enters => self.enter_by_region(queries.len()),
             None => None,
         };
         let way_in = entry.map(|(entry, _)| alone.add_entry(entry.node));
-        // Where a bundle was not even tried, its rays are far apart.
-        let apart = apex.is_some() && fate == Fate::None;
         for (j, at) in packets.enumerate() {
             if !apart && self.trace_packet(j, hint, entry.as_ref(), &mut queries[j]) {
                 answers.store(at, &queries[j]);
@@ -123,11 +124,10 @@ impl<'a, T: Tier> Packets<'a, T> {
     /// What is tried with the packets to come, of which the first ray ends or does not.
     #[inline(always)]
     fn tries(&mut self, apex: Option<Apex>, hint: Hint, ends: bool) -> Tries {
-        let enters = |pace: &mut Pace| hint == Hint::Auto && (apex.is_some() || ends && pace.tries());
         Tries {
             apex: apex.filter(|_| self.pace.tries()),
             guesses: apex.is_none() && hint != Hint::Incoherent && self.guess.tries(),
-            enters: enters(&mut self.entries),
+            enters: apex.is_none() && hint == Hint::Auto && ends && self.entries.tries(),
         }
     }
 

@@ -12,7 +12,7 @@
 use wide::f32x8;
 
 use super::super::frustum::{Edges, Sight};
-use super::Bundle;
+use super::{Bundle, TRIANGLE_FOR_ANY};
 use crate::accel::block::RaysByPrimitive;
 use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
 use crate::accel::query::Query;
@@ -68,6 +68,8 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         edges: Option<&Edges>,
         met: u32,
     ) -> bool {
+        let each = if Q::ANY && edges.is_some() { TRIANGLE_FOR_ANY } else { 1 };
+        self.met += each * met.count_ones() as usize;
         self.find_pairs(sight, met);
         let count = self.find_likely(block, edges);
         let accepted = self.ask_likely(block, edges, count);
@@ -86,7 +88,6 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     #[inline(always)]
     fn find_pairs(&mut self, sight: &Sight, met: u32) {
         let (mut left, all) = (met, (1 << self.rays.len()) - 1);
-        self.met += met.count_ones() as usize;
         self.work.pairs.clear();
         while left != 0 {
             let i = left.trailing_zeros() as usize & 7;
