@@ -116,8 +116,8 @@ impl Costs {
     }
 }
 
-/// Puts everything in a tree that the rays may hit to the query, from its root or from a node that stands for it. The stack never outgrows its capacity, which the
-/// builder bounds by the depth of the tree.
+/// Puts everything in a tree that the rays may hit to the query, from its root or from a node that stands for it. The stack
+/// never outgrows its capacity, which the builder bounds by the depth of the tree.
 ///
 /// Gives what a packet saved by going together, as estimated from what it visited.
 pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(

@@ -76,21 +76,9 @@ impl Children {
 mod tests {
     use super::*;
     use crate::accel::region::Region;
-    use crate::geometry::{Geometry, Group};
+    use crate::accel::tests::scenes::scattered_spheres;
     use crate::intersect::testing::dice::Dice;
     use crate::intersect::{Ray, RayLanes, Watertight};
-
-    fn scattered_spheres(count: usize, dice: &mut Dice) -> Accel {
-        let mut g = Geometry::default();
-        for _ in 0..count {
-            let center = dice.point();
-            (0..3).for_each(|k| g.spheres.center[k].push(center[k] as f32));
-            g.spheres.radius.push(0.01);
-            g.spheres.material.push(0);
-        }
-        g.groups = vec![Group { triangles: 0..0, spheres: 0..count, cylinders: 0..0 }];
-        Accel::build(&g)
-    }
 
     /// Leaves that a region reaches, in order of their numbers, and how many nodes it goes through.
     fn reached(accel: &Accel, from: Node8, region: &Region) -> (Vec<u32>, usize) {
@@ -113,7 +101,7 @@ mod tests {
     #[test]
     fn an_entry_leads_to_all_that_the_root_leads_to() {
         let dice = &mut Dice(3);
-        let accel = scattered_spheres(3_000, dice);
+        let accel = Accel::build(&scattered_spheres(3_000, dice));
         let (mut spared, mut found) = (0, 0);
         for _ in 0..500 {
             let (start, far) = (dice.point(), dice.magnitude(-2.0, 0.3).abs());

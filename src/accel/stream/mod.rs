@@ -4,8 +4,8 @@
 //! 2. Packets whose rays visit much the same: together, see [`super::packet`].
 //! 3. All others: one by one, many at a time.
 //!
-//! Short rays that start near each other enter the tree below the nodes that all of them would go through, see
-//! [`super::entry`].
+//! Short rays that start near each other, and those with a common point that are too far apart for a bundle, enter the tree
+//! below the nodes that all of them would go through, see [`super::entry`].
 //!
 //! Which way a ray takes changes no result.
 

@@ -43,7 +43,7 @@ enum Fate {
 }
 
 /// Where rays enter the tree, and the region that they stay in if that is known.
-type WayIn = (Entry, Option<Region>);
+type Entrance = (Entry, Option<Region>);
 
 /// Packets, up to eight of them at a time.
 pub(super) struct Packets<'a, T: Tier> {
@@ -111,12 +111,12 @@ impl<'a, T: Tier> Packets<'a, T> {
             None if tries.enters => self.enter_by_region(queries.len()),
             None => None,
         };
-        let way_in = entry.map(|(entry, _)| alone.add_entry(entry.node));
+        let number = entry.map(|(entry, _)| alone.add_entry(entry.node));
         for (j, at) in packets.enumerate() {
             if !apart && self.trace_packet(j, hint, entry.as_ref(), &mut queries[j]) {
                 answers.store(at, &queries[j]);
             } else {
-                alone.push(at, way_in);
+                alone.push(at, number);
             }
         }
     }
@@ -136,7 +136,7 @@ impl<'a, T: Tier> Packets<'a, T> {
         &mut self,
         j: usize,
         hint: Hint,
-        entry: Option<&WayIn>,
+        entry: Option<&Entrance>,
         query: &mut Q,
     ) -> bool {
         let together = self.traversal.together::<T, Q>(&self.rays[j], hint);
@@ -148,7 +148,7 @@ impl<'a, T: Tier> Packets<'a, T> {
 
     /// Where so many packets enter the tree that have an apex in common, if their pyramid spares them anything.
     #[inline(never)]
-    fn enter_by_apex(&mut self, apex: Apex, fate: Fate, packets: usize) -> Option<WayIn> {
+    fn enter_by_apex(&mut self, apex: Apex, fate: Fate, packets: usize) -> Option<Entrance> {
         let (world, frustum) = (self.accel.world, &mut *self.frustum);
         let rays = &self.rays[..packets];
         if fate == Fate::None {
@@ -163,7 +163,7 @@ impl<'a, T: Tier> Packets<'a, T> {
 
     /// The same for rays that all end, and the region that they stay in.
     #[inline(never)]
-    fn enter_by_region(&mut self, packets: usize) -> Option<WayIn> {
+    fn enter_by_region(&mut self, packets: usize) -> Option<Entrance> {
         let world = self.accel.world;
         let region = Region::around::<T>(&self.rays[..packets], world);
         let entry =
@@ -200,5 +200,38 @@ impl<'a, T: Tier> Packets<'a, T> {
         let done = bundle.descend(self.accel, world.node, &mut stacks);
         pace.learn(if bundle.has_paid() { 0 } else { -1 });
         if done { Fate::Answered } else { Fate::GivenUp }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::accel::tests::scenes::scattered_spheres;
+    use crate::intersect::testing::dice::Dice;
+    use crate::intersect::{Ray, Watertight};
+    use wide::f32x8;
+
+    /// What a bundle has answered before it is given up is asked again: its entry is that of rays that found nothing yet.
+    #[test]
+    fn a_bundle_that_is_given_up_leaves_no_trace_in_where_its_rays_enter() {
+        let dice = &mut Dice(23);
+        let accel = Accel::build(&scattered_spheres(3_000, dice));
+        let (light, mut packets) = ([0.0, 0.0, 6.0], Packets::<Watertight>::new(&accel));
+        for rays in packets.rays.iter_mut() {
+            let mut one = |_| {
+                let [x, y, z] = dice.point().map(|x| 0.02 * x as f32);
+                let origin = [x, y, z - 0.9];
+                let direction = std::array::from_fn(|k| light[k] - origin[k]);
+                RayLanes::from(&Ray { t_max: 1.0, ..Ray::new(origin, direction) })
+            };
+            let each: [RayLanes<f32>; WIDTH] = std::array::from_fn(&mut one);
+            *rays = RayLanes::gather(|i| &each[i]);
+        }
+        let apex = Apex::Target(light);
+        let (fresh, _) = packets.enter_by_apex(apex, Fate::None, BUNDLE).expect("it spares nodes");
+        (0..BUNDLE).for_each(|j| packets.frustum.look(j, f32x8::splat(f32::NEG_INFINITY)));
+        packets.frustum.update_reach();
+        let given_up = packets.enter_by_apex(apex, Fate::GivenUp, BUNDLE).expect("it spares as many");
+        assert_eq!(given_up.0.node, fresh.node);
     }
 }

@@ -4,7 +4,7 @@ mod cut;
 mod leaks;
 pub(super) mod rays;
 mod refit;
-mod scenes;
+pub(super) mod scenes;
 mod streams;
 
 use proptest::prelude::*;

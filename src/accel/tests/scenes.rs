@@ -216,3 +216,16 @@ impl Shape {
         }
     }
 }
+
+/// Small spheres all over a cube.
+pub(in crate::accel) fn scattered_spheres(count: usize, dice: &mut Dice) -> Geometry {
+    let mut g = Geometry::default();
+    for _ in 0..count {
+        let center = dice.point();
+        (0..3).for_each(|k| g.spheres.center[k].push(center[k] as f32));
+        g.spheres.radius.push(0.01);
+        g.spheres.material.push(0);
+    }
+    g.groups = vec![Group { triangles: 0..0, spheres: 0..count, cylinders: 0..0 }];
+    g
+}

@@ -61,12 +61,12 @@ pub(super) struct Run {
     /// Row of the first: a multiple of eight.
     pub(super) first: u32,
     /// Which entry they take.
-    entry: Option<WayIn>,
+    entry: Option<EntryNumber>,
 }
 
 /// The number of an entry.
 #[derive(Clone, Copy)]
-pub(in super::super) struct WayIn(usize);
+pub(in super::super) struct EntryNumber(usize);
 
 /// Rows of rays that go alone, in runs, and nodes that stand for the tree to some of them.
 #[derive(Default)]
@@ -84,13 +84,13 @@ impl Alone {
         self.runs.is_empty()
     }
     /// Adds the run from a row on, with what stands for the tree to its rays.
-    pub(in super::super) fn push(&mut self, first: usize, entry: Option<WayIn>) {
+    pub(in super::super) fn push(&mut self, first: usize, entry: Option<EntryNumber>) {
         self.runs.push(Run { first: first as u32, entry });
     }
     /// Adds what stands for the tree to runs to come.
-    pub(in super::super) fn add_entry(&mut self, node: Node8) -> WayIn {
+    pub(in super::super) fn add_entry(&mut self, node: Node8) -> EntryNumber {
         self.entries.push(node);
-        WayIn(self.entries.len() - 1)
+        EntryNumber(self.entries.len() - 1)
     }
     /// The runs.
     pub(super) fn runs(&self) -> impl Iterator<Item = Run> {
@@ -98,6 +98,6 @@ impl Alone {
     }
     /// What stands for the tree to the rays of a run, if it is not the root.
     pub(super) fn entry(&self, run: Run) -> Option<&Node8> {
-        run.entry.map(|WayIn(number)| &self.entries[number])
+        run.entry.map(|EntryNumber(number)| &self.entries[number])
     }
 }
