@@ -29,9 +29,12 @@ pub(super) fn grow(items: &mut [Item], quality: Quality) -> Vec<BinaryNode> {
     if items.is_empty() { Vec::new() } else { grow_shared(items, 0, 0, quality).concat() }
 }
 
-/// Appends the nodes over a range that is no task's worth; ranges count from 0.
+/// Appends the nodes over a range; ranges count from 0.
 pub(super) fn grow_onto(nodes: &mut Vec<BinaryNode>, items: &mut [Item], depth: u32, quality: Quality) {
-    grow_alone(items, 0, depth, quality, nodes);
+    if items.len() <= GRAIN {
+        return grow_alone(items, 0, depth, quality, nodes);
+    }
+    grow_shared(items, 0, depth, quality).iter().for_each(|piece| nodes.extend_from_slice(piece));
 }
 
 /// The nodes over a range, in pieces: tasks share the range until pieces are small.

@@ -3,7 +3,8 @@
 //! 1. `item`: boxes and numbers in 32 bytes a primitive, which all later steps reorder in place.
 //! 2. `bins`, `split`, `binary`: a binary tree by the binned surface area heuristic, leaves up to eight of a kind, instances
 //!    one by one.
-//!    `slab`, `spatial`, `cut`: for [`Quality::High`] also by planes that cut triangles.
+//!    `slab`, `spatial`, `cut`: for [`Quality::High`] also by planes that cut triangles, for [`Quality::Balanced`] the first
+//!    time alone.
 //! 3. `reinsert`: except for [`Quality::Fast`] subtrees move to better places.
 //! 4. `plan`, `collapse`: binary nodes become wide nodes and leaves, at the least expected cost; `price`: within bounded
 //!    memory.
@@ -64,10 +65,11 @@ pub const BLOCK_BYTES: [usize; KINDS] = [0, 320, 0, 0, 0, 0, 0, 0];
 pub enum Quality {
     /// Splits across the longest axis alone, leaves as full as they come.
     Fast,
-    /// The surface area heuristic on all axes; where boxes overlap subtrees then move to better places.
+    /// The surface area heuristic on all axes; triangles so large that halves of the whole would overlap are cut, and where
+    /// boxes overlap subtrees then move to better places.
     #[default]
     Balanced,
-    /// Before that also cuts triangles where boxes overlap, for up to [`EXTRA_SHARE`] more references.
+    /// Cuts triangles wherever boxes overlap, for up to [`EXTRA_SHARE`] more references.
     High,
 }
 
@@ -82,7 +84,7 @@ impl Quality {
     }
 }
 
-/// References that [`Quality::High`] may add, as a share of the primitives. Rays through Sponza visit 1% more nodes and
+/// References that cutting may add, as a share of the primitives. Rays through Sponza visit 1% more nodes and
 /// blocks with half of it, and 0.5% less with as much as cutting can use.
 pub const EXTRA_SHARE: f64 = 0.5;
 
@@ -144,17 +146,17 @@ impl Tree {
     }
 }
 
-/// The tree over some primitives; `triangles` tells those that [`Quality::High`] may cut.
+/// The tree over some primitives; `triangles` tells those that may be cut.
 ///
 /// **Panics** if there are 2^29 primitives or more, or if a kind is not one of 1 to 6.
 pub fn build(primitives: &[BuildPrimitive], quality: Quality, triangles: &impl Cuttable) -> Tree {
     assert!(primitives.len() < ChildRef::CAPACITY, "too many primitives for one tree");
     let mut items = items(primitives);
     let mut nodes;
-    if quality == Quality::High {
+    if spatial::cuts(&items, quality) {
         let budget = (items.len() as f64 * EXTRA_SHARE) as usize;
         let budget = budget.min(ChildRef::CAPACITY - 1 - items.len());
-        (nodes, items) = spatial::grow(items, budget, triangles);
+        (nodes, items) = spatial::grow(items, budget, quality, triangles);
     } else {
         nodes = binary::grow(&mut items, quality);
     }

@@ -1,4 +1,4 @@
-//! The binary tree with spatial splits: near the root, where boxes overlap, triangles are cut; below, [`super::binary`].
+//! The binary tree with spatial splits: in long ranges, where boxes overlap, triangles are cut; below, [`super::binary`].
 //!
 //! **Source:** Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", 2009. Changed: a budget
 //! bounds the references that cuts may add; the halves of a range share what is left by their lengths.
@@ -9,15 +9,21 @@ use super::cut::Cuttable;
 use super::item::{Extent, Item};
 use super::slab::best_slab;
 use super::split::{halvings, part_by};
-use super::{LEAF_SIZE, MAX_DEPTH, Quality};
+use super::{MAX_DEPTH, Quality};
 
-/// Cutting is tried where the halves of the best split without it overlap by more than this share of the whole tree, and
-/// in ranges of at least so many items. With 1e-4 trees take up to 40% longer to build and rays visit no less of them.
+/// Cutting is tried where the halves of the best split without it overlap by more than this share of the whole tree. With 1e-4
+/// trees take up to 40% longer to build and rays visit no less of them.
 const LEAST_OVERLAP: f64 = 1e-3;
+/// And in ranges of at least so many items.
 const LEAST_ITEMS: usize = 32;
 /// A split must cost so many times the plane that cuts. Where planes that gain less cut as well, camera rays are up to 7%
 /// fewer a second through halls and 8% around statues.
 const WORTH: f64 = 1.1;
+
+/// For [`Quality::Balanced`] only the whole is parted by a plane that cuts, and only where an item is so large a share of it,
+/// as walls and floors are: camera and shadow rays through a living room are 1.15 and 1.18 times as many a second for it;
+/// looking at halves and quarters too brings no more. Items of statues, hair and terrain are at most 0.0013.
+const LARGE: f64 = 0.01;
 
 /// Ranges from this length on are shared by two tasks.
 const GRAIN: usize = 1 << 12;
@@ -29,17 +35,28 @@ struct Grown {
     items: Vec<Item>,
 }
 
+/// True if a tree of this quality tries planes that cut.
+pub(super) fn cuts(items: &[Item], quality: Quality) -> bool {
+    let has_large = || {
+        let large = LARGE * Extent::of(items).bounds.half_area();
+        items.iter().any(|item| item.bounds.half_area() > large)
+    };
+    quality == Quality::High || (quality == Quality::Balanced && has_large())
+}
+
 /// The nodes over all items, and the items in the order of the leaves; `budget` references may be added.
 pub(super) fn grow(
     items: Vec<Item>,
     budget: usize,
+    quality: Quality,
     triangles: &impl Cuttable,
 ) -> (Vec<BinaryNode>, Vec<Item>) {
     if items.is_empty() {
         return Default::default();
     }
     let whole = Extent::of(&items).bounds.half_area();
-    let grower = Grower { triangles, least_overlap: LEAST_OVERLAP * whole };
+    let least_items = if quality == Quality::High { LEAST_ITEMS } else { items.len().max(LEAST_ITEMS) };
+    let grower = Grower { triangles, quality, least_items, least_overlap: LEAST_OVERLAP * whole };
     let mut grown = grower.grow(items, budget, 0);
     binary::number(&mut grown.nodes);
     (grown.nodes, grown.items)
@@ -47,6 +64,8 @@ pub(super) fn grow(
 
 struct Grower<'a, C> {
     triangles: &'a C,
+    quality: Quality,
+    least_items: usize,
     least_overlap: f64,
 }
 
@@ -60,8 +79,8 @@ impl<C: Cuttable> Grower<'_, C> {
     fn grow_onto(&self, grown: &mut Grown, mut items: Vec<Item>, budget: usize, depth: u32) {
         // Enough levels must remain for halving, also of what is added.
         let deep = depth + halvings(items.len() + budget) + 1 >= MAX_DEPTH;
-        if items.len() <= LEAF_SIZE || budget == 0 || deep {
-            binary::grow_onto(&mut grown.nodes, &mut items, depth, Quality::High);
+        if items.len() < self.least_items || budget == 0 || deep {
+            binary::grow_onto(&mut grown.nodes, &mut items, depth, self.quality);
             grown.items.append(&mut items);
             return;
         }
@@ -91,7 +110,7 @@ impl<C: Cuttable> Grower<'_, C> {
     /// The two sides of a range: by a plane that cuts if that is cheaper and within the budget.
     fn part(&self, mut items: Vec<Item>, extent: &Extent, budget: usize) -> [Vec<Item>; 2] {
         let (cut, overlap) = best_cut_and_overlap(&items, extent);
-        let worth = cut.filter(|_| items.len() >= LEAST_ITEMS && overlap > self.least_overlap);
+        let worth = cut.filter(|_| overlap > self.least_overlap);
         if let Some(sides) = worth.and_then(|cut| self.part_space(&items, extent, budget, cut.cost)) {
             return sides;
         }
