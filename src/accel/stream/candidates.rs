@@ -11,6 +11,10 @@ pub(super) struct Candidate(u32);
 
 impl Candidate {
     #[inline(always)]
+    pub(super) fn new(row: usize, lane: usize) -> Self {
+        Self((row * WIDTH + lane) as u32)
+    }
+    #[inline(always)]
     pub(super) fn row(self) -> usize {
         self.0 as usize / WIDTH
     }

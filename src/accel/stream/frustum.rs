@@ -15,6 +15,7 @@
 mod apex;
 mod edges;
 mod focus;
+mod plane;
 mod slopes;
 mod surround;
 #[cfg(test)]
@@ -30,6 +31,7 @@ pub use apex::Apex;
 pub(super) use edges::Edges;
 use edges::{Eight, Middle};
 pub(super) use focus::focus;
+use plane::Plane;
 use slopes::{Slopes, greatest};
 use view::{Boxes, View};
 
@@ -200,6 +202,12 @@ impl Frustum {
         // There edges do not tell how far along the rays it is.
         let reach = if self.view.lean.is_some() { f32::INFINITY } else { self.reach };
         edges.met(&self.about_middle, f32x8::splat(reach))
+    }
+
+    /// The plane of a triangle.
+    #[inline(always)]
+    pub(super) fn plane(&self, corners: [[f32; 3]; 3]) -> Plane {
+        Plane::of(corners, self.side_pad.get(0))
     }
 
     /// The rays of packet `j`.

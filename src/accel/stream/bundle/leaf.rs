@@ -7,10 +7,12 @@
 //!   ([`Edges`]): they sort out most of what misses, and what is met behind the apex;
 //! - edges also tell of most rays from a camera that they certainly hit, and where within bounds; the others run the
 //!   primitive test: loops that overlap from pair to pair and have little to guess;
+//! - of shadow rays that certainly pass inside the edges of a triangle its plane tells what is met;
 //! - where triangles cover more than the pyramid their boxes tell little, so edges come first.
 
 use wide::f32x8;
 
+use super::super::candidates::Candidate;
 use super::super::frustum::{Edges, Sight};
 use super::{Bundle, TRIANGLE_FOR_ANY};
 use crate::accel::block::RaysByPrimitive;
@@ -18,7 +20,7 @@ use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
 use crate::accel::query::Query;
 use crate::intersect::triangle::Glimpse;
 use crate::intersect::{Tier, TriangleTest};
-use crate::math::{Lane, Mask, three};
+use crate::math::{BitLane, Lane, Mask, WIDTH, three};
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
     #[inline(always)]
@@ -70,9 +72,14 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     ) -> bool {
         let each = if Q::ANY && edges.is_some() { TRIANGLE_FOR_ANY } else { 1 };
         self.met += each * met.count_ones() as usize;
+        let (mut met, mut count, mut accepted) = (met, 0, 0);
+        if let Some(edges) = edges.filter(|_| self.planes_tell()) {
+            (count, accepted) = self.ask_planes(block, (sight, edges), met & edges.large);
+            met &= !edges.large;
+        }
         self.find_pairs(sight, met);
-        let count = self.find_likely(block, edges);
-        let accepted = self.ask_likely(block, edges, count);
+        let count = self.find_likely(block, edges, count);
+        accepted |= self.ask_likely(block, edges, count);
         let mut left = accepted;
         while left != 0 {
             self.look(left.trailing_zeros() as usize & 7);
@@ -82,6 +89,75 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
             self.frustum.update_reach();
         }
         accepted != 0
+    }
+
+    /// True if planes tell what is met: rays look for any hit, and have an apex that they end at.
+    #[inline(always)]
+    fn planes_tell(&self) -> bool {
+        Q::ANY && T::Triangle::GLIMPSES && self.frustum.apex().is_target()
+    }
+
+    /// Asks the planes of so many large triangles; notes pairs with lanes of which those tell too little as likely, and gives how
+    /// many, and the packets that found a hit.
+    #[inline(always)]
+    fn ask_planes<B: Testable>(
+        &mut self,
+        block: &B,
+        (sight, edges): (&Sight, &Edges),
+        mut large: u32,
+    ) -> (usize, u32) {
+        let (mut count, mut accepted) = (0, 0);
+        while large != 0 {
+            let i = large.trailing_zeros() as usize & 7;
+            large &= large - 1;
+            let (lanes, likely) = self.find_inside(i, sight, edges);
+            if likely != 0 {
+                accepted |= self.ask_plane((block, i), &lanes, likely, &mut count);
+            }
+        }
+        (count, accepted)
+    }
+
+    /// By packet, the lanes that may pass inside the edges of triangle `i` and those that certainly do; and the packets that have
+    /// any.
+    #[inline(always)]
+    fn find_inside(&self, i: usize, sight: &Sight, edges: &Edges) -> ([(u32, u32); WIDTH], u32) {
+        let (mut lanes, mut likely) = ([(0, 0); WIDTH], 0);
+        let mut left = self.frustum.packets(sight, i) & ((1 << self.rays.len()) - 1);
+        while left != 0 {
+            let j = left.trailing_zeros() as usize & 7;
+            left &= left - 1;
+            let ((may, must), asks) = (edges.may_and_must_pass(i, self.frustum.eight(j)), self.work.asks[j]);
+            lanes[j] = (may & asks, must & asks);
+            likely |= u32::from(may & asks != 0) << j;
+        }
+        (lanes, likely)
+    }
+
+    /// Asks the plane of triangle `i` for those lanes of packets.
+    #[inline(always)]
+    fn ask_plane<B: Testable>(
+        &mut self,
+        (block, i): (&B, usize),
+        lanes: &[(u32, u32); WIDTH],
+        mut likely: u32,
+        count: &mut usize,
+    ) -> u32 {
+        let Some(corners) = block.corners_of_triangles() else { return 0 };
+        let plane = self.frustum.plane(three(|v| three(|k| corners[v][k][i])));
+        let mut accepted = 0;
+        while likely != 0 {
+            let j = likely.trailing_zeros() as usize & 7;
+            likely &= likely - 1;
+            let ((may, must), query) = (lanes[j], &mut self.queries[j]);
+            let [hits, misses] = plane.sides(&self.rays[j], query.limit()).map(|lanes| lanes.bits() & must);
+            query.take(Mask::from_bits(hits), T::Wide::zero(), BitLane::splat(block.ids()[i]));
+            accepted |= u32::from(hits != 0) << j;
+            let left = may & !(hits | misses);
+            self.work.likely[*count] = (Candidate::new(i, j), left);
+            *count += usize::from(left != 0);
+        }
+        accepted
     }
 
     /// Notes the packets that may meet each of the primitives that the pyramid meets.
@@ -98,9 +174,8 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
 
     /// Sorts out the pairs that may hit; gives how many.
     #[inline(always)]
-    fn find_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>) -> usize {
+    fn find_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>, mut count: usize) -> usize {
         let work = &mut *self.work;
-        let mut count = 0;
         for k in 0..work.pairs.len() {
             let pair = work.pairs.get(k);
             let (i, j) = (pair.row(), pair.lane());

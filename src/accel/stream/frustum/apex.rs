@@ -40,7 +40,7 @@ impl Apex {
         }
     }
 
-    pub(super) fn is_target(self) -> bool {
+    pub(in super::super) fn is_target(self) -> bool {
         matches!(self, Self::Target(_))
     }
 

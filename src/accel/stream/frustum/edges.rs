@@ -12,8 +12,6 @@ const ALONG_ROUNDOFFS: f64 = 24.0;
 const WEIGHTS_OFF: f32 = 4.0;
 /// Roundoffs in the products of an edge function, of the square of how far corners and rays are from the middle.
 const PRODUCT_ROUNDOFFS: f64 = 64.0;
-/// Triangles whose edge functions add up to this many pads: in smaller ones many rays are not clearly beside the edges.
-const LARGE: f32 = 32.0;
 /// Edge functions below say nothing of what the triangle test makes of them: there products underflow.
 const LEAST_EDGE: f32 = 1e-18;
 
@@ -66,6 +64,8 @@ pub(super) struct Middle {
     pub(super) start_off: f32x8,
     /// By how much rays pass the apex; infinite for rays without one.
     pub(super) stray: f32x8,
+    /// Triangles whose edge functions add up to so many pads are large: in smaller ones many rays are not clearly beside the edges.
+    pub(super) large: f32x8,
 }
 
 impl Edges {
@@ -96,7 +96,7 @@ impl Edges {
         let range = Lane::max(Lane::max(a.z, b.z), c.z) - Lane::min(Lane::min(a.z, b.z), c.z);
         let roundoffs = f32x8::splat((ALONG_ROUNDOFFS * f32::ROUNDOFF) as f32);
         let z_off = (across + size.z).mul_add_fast(roundoffs, middle.start_off);
-        let large = (normal[0].z + normal[1].z + normal[2].z).abs().gt(pad * f32x8::splat(LARGE)).bits();
+        let large = (normal[0].z + normal[1].z + normal[2].z).abs().gt(pad * middle.large).bits();
         Self { normal, pad, volume, slack, outside, z, range, z_off, large }
     }
 
@@ -147,6 +147,18 @@ impl Edges {
         let greatest = Lane::max(Lane::max(e0, e1), e2);
         let [below, above] = [0, 1].map(|side: usize| f32x8::splat(self.outside[side].get(i)));
         (least.lt(below) & greatest.gt(above)).bits() ^ 0xff
+    }
+
+    /// The same, and of those the lanes that certainly pass inside, as far as the triangle test can tell.
+    #[inline(always)]
+    pub(in super::super) fn may_and_must_pass(&self, i: usize, rays: &Eight) -> (u32, u32) {
+        let [e0, e1, e2] = self.at(i, &rays.slopes);
+        let least = Lane::min(Lane::min(e0, e1), e2);
+        let greatest = Lane::max(Lane::max(e0, e1), e2);
+        let [below, above] = [0, 1].map(|side: usize| f32x8::splat(self.outside[side].get(i)));
+        let sure = f32x8::splat(self.pad.get(i) + LEAST_EDGE);
+        let may = (least.lt(below) & greatest.gt(above)).bits() ^ 0xff;
+        (may, may & (least.gt(sure) | greatest.lt(-sure)).bits())
     }
 
     /// Lanes where not all rays pass on the outer side of one edge, and not all meet the plane of the triangle behind the

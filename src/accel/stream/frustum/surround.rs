@@ -43,6 +43,11 @@ const LARGEST: f32 = 1e11;
 /// How far rays may pass by an apex behind them, as a part of how wide they are where they start: more would be no beam.
 const STRAY: f32 = 0.03;
 
+/// Pads that the edge functions of large triangles add up to, so that most rays are clearly beside the edges.
+const LARGE: f32 = 32.0;
+/// The same where planes tell what is met: for fewer rays they are not worth it.
+const LARGE_FOR_PLANES: f32 = 1024.0;
+
 impl Frustum {
     /// Puts the pyramid around packets; `None`, and of no use, where they have no axis in common, go too far apart, are not
     /// as the apex says, or lie so far out that a bound overflows. In place, as it is large.
@@ -162,6 +167,7 @@ impl Frustum {
         self.middle.spread += pad(LEAST_ACROSS, 1.0);
         self.middle.stray =
             if self.view.lean.is_some() { f32x8::splat(f32::INFINITY) } else { self.side_pad };
+        self.middle.large = f32x8::splat(if self.apex.is_target() { LARGE_FOR_PLANES } else { LARGE });
         (size <= LARGEST).then_some(())
     }
 }

@@ -144,6 +144,14 @@ fn triangle(rays: &[Ray], apex: Apex, dice: &mut Dice) -> ([[f32; 3]; 3], bool) 
     (corners.map(|p| p.map(|x| x as f32)), size >= 0.05 && shape == 4)
 }
 
+/// A triangle in whose plane a ray starts within rounding, as it does on what it left.
+fn under_a_start(rays: &[Ray], dice: &mut Dice) -> [[f32; 3]; 3] {
+    let at = rays[dice.below(rays.len())].origin.map(f64::from);
+    let size = [0.01, 0.1, 1.0][dice.below(3)];
+    let (a, b) = (offset(at, size, dice), offset(at, size, dice));
+    [a, b, three(|k| 3.0 * at[k] - a[k] - b[k])].map(|p| p.map(|x| x as f32))
+}
+
 /// All of a beam that many times as large.
 fn scaled(rays: &mut [Ray], apex: Apex, by: f32) -> Apex {
     for ray in rays {
@@ -262,6 +270,47 @@ fn a_meeting_that_edges_tell_is_one_and_within_their_bounds() {
     }
     println!("{met} hits, {told} told, {narrow} narrowly");
     assert!(told * 2 > met && narrow > 10_000, "{narrow} of {told} of {met}");
+}
+
+/// Triangles on which rays start and end too, as a shadow ray does on the one that it leaves.
+#[test]
+fn what_planes_tell_of_shadow_rays_is_what_the_triangle_test_says() {
+    let (mut hit, mut missed, mut left) = (0, 0, 0);
+    for seed in 0..40_000 {
+        let dice = &mut Dice(seed);
+        let (mut rays, apex) = beam(dice);
+        if !apex.is_target() {
+            continue;
+        }
+        let triangles: [_; WIDTH] = std::array::from_fn(|_| match dice.below(2) {
+            0 => triangle(&rays, apex, dice).0,
+            _ => under_a_start(&rays, dice),
+        });
+        let scale = [1.0, 1e-6, 1e9][dice.below(3)];
+        let apex = scaled(&mut rays, apex, scale);
+        let Some(frustum) = around(&rays, apex, false, scale) else { continue };
+        let triangles = triangles.map(|corners| corners.map(|p| p.map(|x| x * scale)));
+        let edges =
+            frustum.edges(None, three(|v| frustum.view().point(|k| f32x8::from_fn(|i| triangles[i][v][k]))));
+        for (i, corners) in triangles.into_iter().enumerate() {
+            let plane = frustum.plane(corners);
+            for (j, packet) in packets(&rays).iter().enumerate() {
+                let (may, must) = edges.may_and_must_pass(i, frustum.eight(j));
+                let [met, passed] = plane.sides(packet, packet.t_max).map(|lanes| lanes.bits() & must);
+                assert_eq!((may & must, met & passed), (must, 0));
+                for (r, ray) in rays[j * WIDTH..][..WIDTH].iter().enumerate() {
+                    let told = [met, passed].map(|lanes| lanes >> r & 1 != 0);
+                    let is_hit = hits::<Watertight>(ray, corners).is_some();
+                    assert!(!told[usize::from(is_hit)], "hit: {is_hit}, {ray:?} {corners:?}, seed {seed}");
+                    hit += usize::from(told[0]);
+                    missed += usize::from(told[1]);
+                    left += usize::from(must >> r & 1 != 0 && told == [false; 2]);
+                }
+            }
+        }
+    }
+    println!("{hit} hits, {missed} misses, {left} left");
+    assert!(hit > 50_000 && missed > 50_000 && left < hit + missed, "{hit} {missed} {left}");
 }
 
 #[test]
