@@ -7,7 +7,7 @@
 //!   ([`Edges`]): they sort out most of what misses, and what is met behind the apex;
 //! - edges also tell of most rays from a camera that they certainly hit, and where within bounds; the others run the
 //!   primitive test: loops that overlap from pair to pair and have little to guess;
-//! - of shadow rays that certainly pass inside the edges of a triangle its plane tells what is met;
+//! - of other rays that certainly pass inside the edges of a large triangle its plane tells, most of all of what they left;
 //! - where triangles cover more than the pyramid their boxes tell little, so edges come first.
 
 use wide::f32x8;
@@ -91,10 +91,11 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         accepted != 0
     }
 
-    /// True if planes tell what is met: rays look for any hit, and have an apex that they end at.
+    /// True if planes tell what is met: of shadow rays, and of those that a mirror throws back.
     #[inline(always)]
     fn planes_tell(&self) -> bool {
-        Q::ANY && T::Triangle::GLIMPSES && self.frustum.apex().is_target()
+        let apex = self.frustum.apex();
+        T::Triangle::GLIMPSES && if Q::ANY { apex.is_target() } else { apex.is_behind() }
     }
 
     /// Asks the planes of so many large triangles; notes pairs with lanes of which those tell too little as likely, and gives how
@@ -127,7 +128,8 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         while left != 0 {
             let j = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            let ((may, must), asks) = (edges.may_and_must_pass(i, self.frustum.eight(j)), self.work.asks[j]);
+            let asks = if Q::ANY { self.work.asks[j] } else { 0xff };
+            let (may, must) = edges.may_and_must_pass(i, self.frustum.eight(j));
             lanes[j] = (may & asks, must & asks);
             likely |= u32::from(may & asks != 0) << j;
         }
@@ -149,11 +151,20 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         while likely != 0 {
             let j = likely.trailing_zeros() as usize & 7;
             likely &= likely - 1;
-            let ((may, must), query) = (lanes[j], &mut self.queries[j]);
-            let [hits, misses] = plane.sides(&self.rays[j], query.limit()).map(|lanes| lanes.bits() & must);
-            query.take(Mask::from_bits(hits), T::Wide::zero(), BitLane::splat(block.ids()[i]));
+            let ((may, must), rays, query) = (lanes[j], &self.rays[j], &mut self.queries[j]);
+            let (hits, left) = if Q::ANY {
+                let [hits, misses] = plane.sides(rays, query.limit()).map(|lanes| lanes.bits() & must);
+                query.take(Mask::from_bits(hits), T::Wide::zero(), BitLane::splat(block.ids()[i]));
+                (hits, may & !(hits | misses))
+            } else {
+                let seen = plane.meeting(Mask::from_bits(must), rays);
+                let pending = &mut self.work.pending[j];
+                let (certain, unclear) = pending.sort(&seen, rays.t_min, query.limit());
+                pending.take((block, i), certain, &seen, query);
+                self.work.waits |= 1 << j;
+                (certain.bits(), may & !must | unclear.bits())
+            };
             accepted |= u32::from(hits != 0) << j;
-            let left = may & !(hits | misses);
             self.work.likely[*count] = (Candidate::new(i, j), left);
             *count += usize::from(left != 0);
         }

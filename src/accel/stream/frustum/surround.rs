@@ -167,7 +167,7 @@ impl Frustum {
         self.middle.spread += pad(LEAST_ACROSS, 1.0);
         self.middle.stray =
             if self.view.lean.is_some() { f32x8::splat(f32::INFINITY) } else { self.side_pad };
-        self.middle.large = f32x8::splat(if self.apex.is_target() { LARGE_FOR_PLANES } else { LARGE });
+        self.middle.large = f32x8::splat(if self.tells_meetings { LARGE } else { LARGE_FOR_PLANES });
         (size <= LARGEST).then_some(())
     }
 }

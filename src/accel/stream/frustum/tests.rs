@@ -1,3 +1,4 @@
+use super::plane::Plane;
 use super::{Apex, Frustum, focus};
 use crate::accel::instance::TreeRoot;
 use crate::intersect::testing::dice::Dice;
@@ -272,45 +273,73 @@ fn a_meeting_that_edges_tell_is_one_and_within_their_bounds() {
     assert!(told * 2 > met && narrow > 10_000, "{narrow} of {told} of {met}");
 }
 
-/// Triangles on which rays start and end too, as a shadow ray does on the one that it leaves.
-#[test]
-fn what_planes_tell_of_shadow_rays_is_what_the_triangle_test_says() {
-    let (mut hit, mut missed, mut left) = (0, 0, 0);
-    for seed in 0..40_000 {
-        let dice = &mut Dice(seed);
-        let (mut rays, apex) = beam(dice);
-        if !apex.is_target() {
-            continue;
-        }
-        let triangles: [_; WIDTH] = std::array::from_fn(|_| match dice.below(2) {
-            0 => triangle(&rays, apex, dice).0,
-            _ => under_a_start(&rays, dice),
-        });
-        let scale = [1.0, 1e-6, 1e9][dice.below(3)];
-        let apex = scaled(&mut rays, apex, scale);
-        let Some(frustum) = around(&rays, apex, false, scale) else { continue };
-        let triangles = triangles.map(|corners| corners.map(|p| p.map(|x| x * scale)));
-        let edges =
-            frustum.edges(None, three(|v| frustum.view().point(|k| f32x8::from_fn(|i| triangles[i][v][k]))));
-        for (i, corners) in triangles.into_iter().enumerate() {
-            let plane = frustum.plane(corners);
-            for (j, packet) in packets(&rays).iter().enumerate() {
-                let (may, must) = edges.may_and_must_pass(i, frustum.eight(j));
-                let [met, passed] = plane.sides(packet, packet.t_max).map(|lanes| lanes.bits() & must);
-                assert_eq!((may & must, met & passed), (must, 0));
-                for (r, ray) in rays[j * WIDTH..][..WIDTH].iter().enumerate() {
-                    let told = [met, passed].map(|lanes| lanes >> r & 1 != 0);
-                    let is_hit = hits::<Watertight>(ray, corners).is_some();
-                    assert!(!told[usize::from(is_hit)], "hit: {is_hit}, {ray:?} {corners:?}, seed {seed}");
-                    hit += usize::from(told[0]);
-                    missed += usize::from(told[1]);
-                    left += usize::from(must >> r & 1 != 0 && told == [false; 2]);
-                }
+/// Calls with each ray of a beam and each triangle that it certainly passes inside of, triangles on which rays start among them;
+/// and with what its plane says of the packet, and the ray's lane.
+fn inside_of_planes(
+    seed: u64,
+    is_asked: impl Fn(Apex) -> bool,
+    mut call: impl FnMut(&Ray, [[f32; 3]; 3], Plane, &RayLanes<f32x8>, usize),
+) {
+    let dice = &mut Dice(seed);
+    let (mut rays, apex) = beam(dice);
+    if !is_asked(apex) {
+        return;
+    }
+    let triangles: [_; WIDTH] = std::array::from_fn(|_| match dice.below(2) {
+        0 => triangle(&rays, apex, dice).0,
+        _ => under_a_start(&rays, dice),
+    });
+    let scale = [1.0, 1e-6, 1e9][dice.below(3)];
+    let apex = scaled(&mut rays, apex, scale);
+    let Some(frustum) = around(&rays, apex, false, scale) else { return };
+    let triangles = triangles.map(|corners| corners.map(|p| p.map(|x| x * scale)));
+    let corners = three(|v| frustum.view().point(|k| f32x8::from_fn(|i| triangles[i][v][k])));
+    let edges = frustum.edges(None, corners);
+    for (i, corners) in triangles.into_iter().enumerate() {
+        for (j, packet) in packets(&rays).iter().enumerate() {
+            let (may, must) = edges.may_and_must_pass(i, frustum.eight(j));
+            assert_eq!(may & must, must);
+            for lane in (0..WIDTH).filter(|lane| must >> lane & 1 != 0) {
+                call(&rays[j * WIDTH + lane], corners, frustum.plane(corners), packet, lane);
             }
         }
     }
-    println!("{hit} hits, {missed} misses, {left} left");
-    assert!(hit > 50_000 && missed > 50_000 && left < hit + missed, "{hit} {missed} {left}");
+}
+
+#[test]
+fn what_planes_tell_of_shadow_rays_is_what_the_triangle_test_says() {
+    let (mut met, mut missed, mut left) = (0, 0, 0);
+    for seed in 0..40_000 {
+        inside_of_planes(seed, Apex::is_target, |ray, corners, plane, packet, lane| {
+            let [hit, miss] = plane.sides(packet, packet.t_max).map(|lanes| lanes.bits() >> lane & 1 != 0);
+            let is_hit = hits::<Watertight>(ray, corners).is_some();
+            let is_wrong = if is_hit { miss } else { hit };
+            assert!(!is_wrong, "hit: {is_hit}, {ray:?} {corners:?}, seed {seed}");
+            (met, missed) = (met + usize::from(hit), missed + usize::from(miss));
+            left += usize::from(!hit && !miss);
+        });
+    }
+    println!("{met} hits, {missed} misses, {left} left");
+    assert!(met > 50_000 && missed > 50_000 && left < met + missed, "{met} {missed} {left}");
+}
+
+#[test]
+fn a_meeting_that_planes_tell_is_one_and_within_their_bounds() {
+    let (mut told, mut left) = (0, 0);
+    for seed in 0..40_000 {
+        inside_of_planes(seed, Apex::is_behind, |ray, corners, plane, packet, lane| {
+            let seen = plane.meeting(Mask::splat(true), packet);
+            let (near, far) = (seen.near.get(lane), seen.far.get(lane));
+            let endless = Ray { t_min: f32::NEG_INFINITY, t_max: f32::INFINITY, ..*ray };
+            let t = hits::<Watertight>(&endless, corners);
+            let is_within = t.is_some_and(|t| near <= t && t <= far);
+            assert!(is_within, "{t:?} in {near} to {far}: {ray:?} {corners:?}, seed {seed}");
+            told += usize::from(far - near < 1e-5 * far.abs());
+            left += usize::from(far == f32::INFINITY);
+        });
+    }
+    println!("{told} told, {left} left");
+    assert!(told > 50_000 && left < told, "{told} {left}");
 }
 
 #[test]
