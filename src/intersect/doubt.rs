@@ -65,6 +65,13 @@ pub(super) fn is_exact<L: Lane>() -> bool {
     <L::Scalar as Real>::ROUNDOFF <= f64::ROUNDOFF
 }
 
+/// The root of a quadratic that is nearer to zero, no farther than the other: rounding makes anything of it, or NaN, where a ray
+/// starts at the point where it touches.
+#[inline(always)]
+pub(super) fn no_farther<L: Lane>(near: L, far: L) -> L {
+    near.max(-far.abs()).min(far.abs())
+}
+
 /// The roots of `a t^2 + 2 b t + c`, the lesser first, from the root of the discriminant too: neither loses digits that these have,
 /// nor its sign.
 pub(super) fn roots([a, b, c]: [f64; 3], root: f64) -> [f64; 2] {

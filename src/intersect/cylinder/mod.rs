@@ -137,9 +137,12 @@ impl<L: Lane> Side<L> {
     fn inside(&self) -> Interval<L> {
         let (a, b) = (self.a, self.b);
         let q = -(b + self.root.with_sign_of(b));
-        let (t0, t1) = (q / a, self.outside / q);
-        // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
-        let crossing = Interval { first: t1.min(t0), last: t1.max(t0) };
+        let (far, near) = (q / a, self.outside / q);
+        // Of a ray along the axis the root may be lost to underflow in `f32`, and `far` with it.
+        let is_f64 = <L::Scalar as Real>::ROUNDOFF <= f64::ROUNDOFF;
+        let near = if is_f64 { doubt::no_farther(near, far) } else { near };
+        // In this order a NaN of `near`, from a ray that starts at the point where it touches, gives the other root.
+        let crossing = Interval { first: near.min(far), last: near.max(far) };
         let meets = Interval::select(self.is_met(), crossing, Interval::all_where(L::Mask::splat(false)));
         let parallel = Interval::all_where(self.outside.le(L::zero()));
         Interval::select(a.gt(L::zero()), meets, parallel)

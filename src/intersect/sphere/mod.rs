@@ -64,9 +64,9 @@ fn solve_rounded<L: Lane>(
     let doubt = Doubt::new(start.r2, across2, start.offset2);
     let inside = doubt.value.ge(L::zero());
     let q = -(b + (a * doubt.value).sqrt().with_sign_of(b));
-    let (near, far) = (q / a, start.outside / q);
-    // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
-    let chord = Chord { first: far.min(near), last: far.max(near), inside };
+    let far = q / a;
+    let near = doubt::no_farther(start.outside / q, far);
+    let chord = Chord { first: near.min(far), last: near.max(far), inside };
     let chord = settle(doubt.is_open() | (inside & start.is_open(b)), chord);
     let (first, last) = (round(chord.first), round(chord.last));
     let t = L::select(first.gt(ray.t_min), first, last);
