@@ -1,6 +1,6 @@
-//! Discriminants whose sign rounding could change, and what gives it to them in tier `Exact`.
+//! What rounding could change of where lines meet curved surfaces.
 
-use crate::math::{Lane, Mask, Real, Vec3, gamma_of};
+use crate::math::{Lane, Real, Vec3, gamma_of};
 
 /// What a line leaves of a radius: `r^2 - |a|^2` with `a` the way from the axis to the line, and how far that may be off.
 #[derive(Clone, Copy, Debug)]
@@ -33,22 +33,6 @@ impl<L: Lane> Doubt<L> {
     pub(super) fn is_open(&self) -> L::Mask {
         !(self.value * self.value).gt(self.error2)
     }
-
-    /// The value, with the sign that `is_met` gives to lanes in doubt: zero, or less.
-    #[inline(always)]
-    pub(super) fn settle(self, lanes: L::Mask, is_met: impl Fn(usize) -> bool) -> L {
-        let doubtful = lanes & self.is_open();
-        if doubtful.any() { self.settle_lanes(doubtful.bits(), is_met) } else { self.value }
-    }
-
-    #[cold]
-    fn settle_lanes(self, lanes: u32, is_met: impl Fn(usize) -> bool) -> L {
-        let zero = L::zero();
-        (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0).fold(self.value, |value, i| {
-            let settled = if is_met(i) { value.max(zero) } else { -L::one() };
-            L::select(L::Mask::from_bits(1 << i), settled, value)
-        })
-    }
 }
 
 /// By how much a squared distance at `t` has to exceed a squared radius for no root, as it will be found, to lie before:
@@ -56,6 +40,17 @@ impl<L: Lane> Doubt<L> {
 #[inline(always)]
 pub(super) fn rounding_at<L: Lane>(t: L, offset2: L, direction2: L) -> L {
     (offset2 + t * t * direction2) * L::constant(gamma_of(4096, <L::Scalar as Real>::ROUNDOFF))
+}
+
+/// Of what the place of a ray's start may be off by, how many times as much it has to be away from a surface ahead for the way there
+/// to be known to nine digits.
+const CLOSE: f64 = (1u64 << 28) as f64;
+
+/// By how much a start has to be away from a surface, of what its place may be off by: as much as makes `t` good where the surface is
+/// ahead, and elsewhere no more than it takes to know that it is not.
+#[inline(always)]
+pub(super) fn clearance<L: Lane>(error: L, is_ahead: L::Mask) -> L {
+    L::select(is_ahead, error * L::constant(CLOSE), error)
 }
 
 /// The sum of magnitudes.
@@ -68,4 +63,20 @@ pub(super) fn size<L: Lane>(v: Vec3<L>) -> L {
 #[inline(always)]
 pub(super) fn is_exact<L: Lane>() -> bool {
     <L::Scalar as Real>::ROUNDOFF <= f64::ROUNDOFF
+}
+
+/// The root of a quadratic that is nearer to zero, no farther than the other: rounding makes anything of it, or NaN, where a ray
+/// starts at the point where it touches.
+#[inline(always)]
+pub(super) fn no_farther<L: Lane>(near: L, far: L) -> L {
+    near.max(-far.abs()).min(far.abs())
+}
+
+/// The roots of `a t^2 + 2 b t + c`, the lesser first, from the root of the discriminant too: neither loses digits that these have,
+/// nor its sign.
+pub(super) fn roots([a, b, c]: [f64; 3], root: f64) -> [f64; 2] {
+    let q = -(b + root.copysign(b));
+    let (t0, t1) = (q / a, c / q);
+    // A NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
+    [t1.min(t0), t1.max(t0)]
 }

@@ -15,7 +15,7 @@ mod vec3;
 pub use aabb::Aabb;
 pub(crate) use expansion::{Pair, determinant, determinant_sign, two_sum};
 pub use lane::{BitLane, Lane, Mask, Real, Stored, Wide};
-pub(crate) use ring::{Ring, cross as ring_cross, dot as ring_dot, pairs, sign};
+pub(crate) use ring::{Ring, cross as ring_cross, dot as ring_dot, pairs, sign, value};
 pub use transform::{Transform, TransformError};
 pub use vec3::{Vec3, fused_cross, fused_dot};
 

@@ -62,16 +62,28 @@ pub(crate) fn pairs(v: [f64; 3]) -> [Pair; 3] {
     v.map(|x| [x, 0.0])
 }
 
-/// The sign of a form of at most six factors, a pair where that is sure to tell and a whole number elsewhere. `size` is the
-/// product of the sums of magnitudes of its factors.
-pub(crate) fn sign(pair: Pair, size: f64, whole: impl FnOnce() -> IBig) -> Ordering {
-    // A thousand times what the roundings may amount to.
-    const ERROR: f64 = 1.0 / (1u128 << 90) as f64;
+/// A thousand times what the roundings of a form of at most six factors may amount to, as a share of its size: the product of
+/// the sums of magnitudes of its factors.
+const ERROR: f64 = 1.0 / (1u128 << 90) as f64;
+
+/// Whether a form is more than a share of its size.
+fn is_clear([value, _]: Pair, size: f64, share: f64) -> bool {
     // Below, the second numbers of pairs may have been lost to underflow.
     const LEAST: f64 = 1e-200;
-    let [value, _] = pair;
-    let certain = value.abs() > size * ERROR && size > LEAST && size < f64::INFINITY;
-    if certain { value.total_cmp(&0.0) } else { whole().cmp(&IBig::ZERO) }
+    value.abs() > size * share && size > LEAST && size < f64::INFINITY
+}
+
+/// The sign of a form, a pair where that is sure to tell and a whole number elsewhere.
+pub(crate) fn sign(pair: Pair, size: f64, whole: impl FnOnce() -> IBig) -> Ordering {
+    if is_clear(pair, size, ERROR) { pair[0].total_cmp(&0.0) } else { whole().cmp(&IBig::ZERO) }
+}
+
+/// The value of a form, from whole numbers where a pair does not tell it.
+///
+/// **Accuracy:** the sign is exact, and ten digits are right.
+pub(crate) fn value(pair: Pair, size: f64, whole: impl FnOnce() -> f64) -> f64 {
+    const SHARE: f64 = ERROR * (1u64 << 26) as f64;
+    if is_clear(pair, size, SHARE) { pair[0] } else { whole() }
 }
 
 #[cfg(test)]
@@ -87,6 +99,8 @@ mod tests {
         {
             assert_eq!(told(pair, size), Ordering::Less, "{pair:?} of {size}");
         }
+        let value_of = |pair| value(pair, 1.0, || -7.0);
+        assert_eq!([[1e-19, 0.0], [1e-20, 0.0], [0.0; 2]].map(value_of), [1e-19, -7.0, -7.0]);
     }
 
     #[test]

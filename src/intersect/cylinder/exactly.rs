@@ -4,6 +4,8 @@
 //! and passes it within the radius. With `f` and `g` from the two ends to the origin, `a` the axis, `n = d x a` and the
 //! moments `f x d`, `g x d`, each of these is the sign of a form in which nothing is divided and no root taken, so that
 //! pairs of `f64` decide, and whole numbers where those cannot. A ray along the axis, with `n = 0`, is decided at the caps.
+//! Whether an end of the chord lies before or behind the origin is the sign of such forms too, and that of the quotient that
+//! its `t` is.
 
 use std::cell::OnceCell;
 use std::cmp::Ordering;
@@ -12,11 +14,11 @@ use dashu::integer::IBig;
 
 use super::Lanes;
 use crate::intersect::RayLanes;
-use crate::intersect::doubt::size;
+use crate::intersect::doubt::{roots, size};
 use crate::intersect::oracle::number::Unit;
-use crate::math::{Pair, Ring, Vec3, pairs, ring_cross, ring_dot, sign, two_sum};
+use crate::math::{Pair, Ring, Vec3, pairs, ring_cross, ring_dot, sign, two_sum, value};
 
-/// The part of a line inside a cylinder.
+/// The part of a line inside a cylinder, its ends on the sides of zero that are exactly right.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Chord {
     pub(super) first: f64,
@@ -52,6 +54,27 @@ enum Form {
     NotBeyond,
     /// Whether the lines pass each other within the radius: `r^2 |n|^2 - (f . n)^2`.
     Near,
+    /// How far the origin is beyond the plane of a cap: `f . a`, or `g . a`.
+    Height(usize),
+    /// What the origin is outside of the side: `|f x a|^2 - r^2 |a|^2`.
+    Outside,
+    /// Whether the line goes away from the axis: `(f x a) . n`.
+    Away,
+}
+
+impl Form {
+    /// How often a length across, the direction and the axis are factors.
+    fn factors(self) -> [usize; 3] {
+        match self {
+            Self::Across => [0, 1, 1],
+            Self::Turned => [0, 2, 2],
+            Self::NotBefore | Self::NotBeyond => [1, 2, 1],
+            Self::InsideAt(_) | Self::Near => [2, 2, 2],
+            Self::Height(_) => [1, 0, 1],
+            Self::Outside => [2, 0, 2],
+            Self::Away => [1, 1, 2],
+        }
+    }
 }
 
 /// The vectors that the forms are made of.
@@ -89,19 +112,32 @@ impl<N: Ring> Parts<N> {
                 let reach = self.radius.squared().times(&ring_dot(n, n));
                 reach.minus(&ring_dot(&self.offset[0], n).squared())
             }
+            Form::Height(end) => ring_dot(&self.offset[end], &self.axis),
+            Form::Outside => {
+                let across = ring_cross(&self.offset[0], &self.axis);
+                let reach = self.radius.squared().times(&ring_dot(&self.axis, &self.axis));
+                ring_dot(&across, &across).minus(&reach)
+            }
+            Form::Away => ring_dot(&ring_cross(&self.offset[0], &self.axis), n),
         }
     }
+}
+
+/// Whole numbers of a unit of lengths and one of the direction.
+struct Whole {
+    parts: Parts<IBig>,
+    units: [Unit; 2],
 }
 
 /// A line and a cylinder.
 struct Question {
     pairs: Parts<Pair>,
-    whole: OnceCell<Parts<IBig>>,
+    whole: OnceCell<Whole>,
     origin: [f64; 3],
     direction: [f64; 3],
     ends: [[f64; 3]; 2],
     radius: f64,
-    /// Sums of magnitudes: of the direction, of the axis, and of all lengths.
+    /// Sums of magnitudes: of all lengths, of the direction, and of the axis.
     sizes: [f64; 3],
 }
 
@@ -117,7 +153,7 @@ impl Question {
         let pairs = Parts::new(ends.map(|end| between(origin, end)), pairs(direction), axis, [radius, 0.0]);
         let rounded = |v: &[Pair; 3]| size(Vec3::<f64>::splat(v.map(|x| x[0])));
         let (d, a) = (size(ray.direction), rounded(&axis));
-        let sizes = [d, a, rounded(&pairs.offset[0]) + a + radius];
+        let sizes = [rounded(&pairs.offset[0]) + a + radius, d, a];
         let whole = OnceCell::new();
         let question = Self { pairs, whole, origin, direction, ends, radius, sizes };
         question.size(Form::Near).is_finite().then_some(question)
@@ -125,32 +161,34 @@ impl Question {
 
     /// The product of the sizes of the factors.
     fn size(&self, form: Form) -> f64 {
-        let [d, a, reach] = self.sizes;
-        match form {
-            Form::Across => d * a,
-            Form::Turned => (d * a).powi(2),
-            Form::NotBefore | Form::NotBeyond => reach * d * d * a,
-            Form::InsideAt(_) | Form::Near => (reach * d * a).powi(2),
-        }
+        let factors = self.sizes.iter().zip(form.factors());
+        factors.flat_map(|(size, times)| std::iter::repeat_n(size, times)).product()
     }
 
     fn sign(&self, form: Form) -> Ordering {
-        sign(self.pairs.value(form), self.size(form), || {
-            self.whole.get_or_init(|| self.whole_parts()).value(form)
+        sign(self.pairs.value(form), self.size(form), || self.whole().parts.value(form))
+    }
+
+    fn value(&self, form: Form) -> f64 {
+        value(self.pairs.value(form), self.size(form), || {
+            let ([across, along, axes], Whole { parts, units }) = (form.factors(), self.whole());
+            units[0].drop(across + axes, units[1], along, parts.value(form))
         })
     }
 
-    /// Lengths in one unit, the direction in another: no sign depends on either.
-    fn whole_parts(&self) -> Parts<IBig> {
-        let lengths =
-            Unit::of(self.ends.as_flattened().iter().chain(&self.origin).chain([&self.radius]).copied());
-        let lift = |p: [f64; 3]| p.map(|x| lengths.lift(x));
-        let (origin, ends) = (lift(self.origin), self.ends.map(lift));
-        let between = |p: &[IBig; 3], q: &[IBig; 3]| std::array::from_fn(|k| &p[k] - &q[k]);
-        let offsets = [0, 1].map(|end| between(&origin, &ends[end]));
-        let along = Unit::of(self.direction);
-        let direction = self.direction.map(|x| along.lift(x));
-        Parts::new(offsets, direction, between(&ends[1], &ends[0]), lengths.lift(self.radius))
+    /// No sign depends on the units.
+    fn whole(&self) -> &Whole {
+        self.whole.get_or_init(|| {
+            let numbers = self.ends.as_flattened().iter().chain(&self.origin).chain([&self.radius]);
+            let units = [Unit::of(numbers.copied()), Unit::of(self.direction)];
+            let lift = |p: [f64; 3]| p.map(|x| units[0].lift(x));
+            let (origin, ends) = (lift(self.origin), self.ends.map(lift));
+            let between = |p: &[IBig; 3], q: &[IBig; 3]| std::array::from_fn(|k| &p[k] - &q[k]);
+            let offsets = [0, 1].map(|end| between(&origin, &ends[end]));
+            let direction = self.direction.map(|x| units[1].lift(x));
+            let radius = units[0].lift(self.radius);
+            Whole { parts: Parts::new(offsets, direction, between(&ends[1], &ends[0]), radius), units }
+        })
     }
 
     /// Whether the line, not along the axis, passes it between the caps and within the radius.
@@ -162,7 +200,9 @@ impl Question {
     /// The chord: from the plane of a cap where the line is inside the side there, else from the side. The ends in the order
     /// in which the line comes to them.
     fn between_roots(&self, at_ends: [Ordering; 2]) -> Chord {
-        let (sides, caps) = (self.side_roots(), self.cap_roots());
+        let none = [f64::NAN; 2];
+        let sides = if at_ends.iter().any(|at| at.is_gt()) { self.side_roots() } else { none };
+        let caps = if at_ends.iter().any(|at| at.is_le()) { self.cap_roots() } else { none };
         let end = |i: usize| if at_ends[i].is_gt() { sides[i] } else { caps[i] };
         let (first, last) = (end(0), end(1));
         Chord { first, last: last.max(first), on_side: at_ends.map(Ordering::is_ge) }
@@ -170,21 +210,15 @@ impl Question {
 
     /// Where the line meets the planes of the caps.
     fn cap_roots(&self) -> [f64; 2] {
-        let Parts { offset, direction, axis, .. } = &self.pairs;
-        let speed = ring_dot(direction, axis)[0];
-        let [from, to] = [0, 1].map(|end| 0.0 - ring_dot(&offset[end], axis)[0] / speed);
+        let speed = self.value(Form::Across);
+        let [from, to] = [0, 1].map(|end| 0.0 - self.value(Form::Height(end)) / speed);
         [from.min(to), from.max(to)]
     }
 
     /// Where the line meets the infinite side, as if it did: of `|n|^2 t^2 + 2 (f x a) . n t + |f x a|^2 - r^2 |a|^2`.
     fn side_roots(&self) -> [f64; 2] {
-        let Parts { offset, axis, radius, normal, .. } = &self.pairs;
-        let (g, axis2) = (ring_cross(&offset[0], axis), ring_dot(axis, axis));
-        let [a, b] = [ring_dot(normal, normal)[0], ring_dot(&g, normal)[0]];
-        let c = ring_dot(&g, &g).minus(&radius.squared().times(&axis2))[0];
-        let root = (axis2[0] * self.pairs.value(Form::Near)[0].max(0.0)).sqrt();
-        let q = -(b + root.copysign(b));
-        let (t0, t1) = (q / a, c / q);
-        [t1.min(t0), t1.max(t0)]
+        let axis2 = ring_dot(&self.pairs.axis, &self.pairs.axis)[0];
+        let root = (axis2 * self.value(Form::Near).max(0.0)).sqrt();
+        roots([Form::Turned, Form::Away, Form::Outside].map(|form| self.value(form)), root)
     }
 }

@@ -7,8 +7,8 @@
 //! - The side's quadratic uses perpendicular components, as [`super::sphere`] does.
 //! - In tier `Fast` products are added fused: fewer roundings, and quicker ([`products`]).
 //! - A ray along the axis, or across it, makes one interval all or nothing instead of dividing by zero.
-//! - In tier `Exact` lanes in which rounding could change whether the chord is there, or whether a cap or the side ends it,
-//!   are decided without rounding ([`exactly`]).
+//! - In tier `Exact` lanes in which rounding could change whether the chord is there, whether a cap or the side ends it, or
+//!   whether it ends before or behind where the ray starts, are decided without rounding ([`exactly`]).
 
 mod exactly;
 pub mod oracle;
@@ -68,7 +68,7 @@ pub fn solve<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> LaneHit<L> {
 }
 
 /// `round` is what becomes of `t` later: the end beyond `t_min` is chosen by the `t` that the caller will see. `settle` is
-/// given the lanes in which rounding could change whether the chord is there and what ends it.
+/// given the lanes in which rounding could change whether the chord is there, what ends it, and on which side of zero.
 #[inline(always)]
 fn solve_rounded<L: Lane, P: Products>(
     ray: &RayLanes<L>,
@@ -88,7 +88,8 @@ fn solve_rounded<L: Lane, P: Products>(
     let sizes = Sizes { offset2: f.length_squared(), direction2: ray.direction.length_squared() };
     let rims = Rims { along_f, along_d, axis2 };
     let open = side.is_open(&sizes) | (side.is_met() & rims.are_close(&sizes, &side, within));
-    let chord = settle(open, Chord::of(within, between));
+    let chord = Chord::of(within, between);
+    let chord = settle(open | chord.starts_at_an_end(&sizes, &side, &rims), chord);
     let (mask, t, on_side) = chord.first_beyond(ray.t_min, c.capped, round);
     let height = (along_f + t * along_d) / axis2;
     let (zero, half, one) = (L::zero(), L::constant(0.5), L::one());
@@ -103,6 +104,8 @@ struct Side<L> {
     a: L,
     b: L,
     radius: L,
+    /// What the origin is outside: `f2 - r^2`.
+    outside: L,
     /// Squared distance of the line from the axis.
     across2: L,
     discriminant: L,
@@ -120,7 +123,8 @@ impl<L: Lane> Side<L> {
         let across = P::less(f, d, b / a);
         let across2 = P::dot(across, across);
         let discriminant = radius * radius - across2;
-        Self { f2, a, b, radius, across2, discriminant, root: (a * discriminant).sqrt() }
+        let (outside, root) = (f2 - radius * radius, (a * discriminant).sqrt());
+        Self { f2, a, b, radius, outside, across2, discriminant, root }
     }
 
     #[inline(always)]
@@ -133,12 +137,14 @@ impl<L: Lane> Side<L> {
     fn inside(&self) -> Interval<L> {
         let (a, b) = (self.a, self.b);
         let q = -(b + self.root.with_sign_of(b));
-        let c = self.f2 - self.radius * self.radius;
-        let (t0, t1) = (q / a, c / q);
-        // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
-        let crossing = Interval { first: t1.min(t0), last: t1.max(t0) };
+        let (far, near) = (q / a, self.outside / q);
+        // Of a ray along the axis the root may be lost to underflow in `f32`, and `far` with it.
+        let is_f64 = <L::Scalar as Real>::ROUNDOFF <= f64::ROUNDOFF;
+        let near = if is_f64 { doubt::no_farther(near, far) } else { near };
+        // In this order a NaN of `near`, from a ray that starts at the point where it touches, gives the other root.
+        let crossing = Interval { first: near.min(far), last: near.max(far) };
         let meets = Interval::select(self.is_met(), crossing, Interval::all_where(L::Mask::splat(false)));
-        let parallel = Interval::all_where(c.le(L::zero()));
+        let parallel = Interval::all_where(self.outside.le(L::zero()));
         Interval::select(a.gt(L::zero()), meets, parallel)
     }
 
@@ -151,6 +157,16 @@ impl<L: Lane> Side<L> {
         let reach2 = self.radius * self.radius + self.across2;
         let e2 = sizes.offset2 * self.a + self.f2 * sizes.direction2;
         !(self.discriminant * self.discriminant * self.a).gt(reach2 * e2 * roundoffs_squared::<L>(32.0))
+    }
+
+    /// Lanes that start so near to the side that rounding could put them on the other side of it, or leave too little of a `t` ahead.
+    /// What a way across is off by, `e`, changes its square by `2 e |f|` and `e^2`. Else the roots have the signs that they have
+    /// exactly.
+    #[inline(always)]
+    fn is_started_at(&self, sizes: &Sizes<L>) -> L::Mask {
+        let e = doubt::clearance(L::constant(start_roundoffs::<L>()), (self.outside * self.b).lt(L::zero()));
+        let (e2, reach2) = (sizes.offset2 * e * e, self.f2 + self.radius * self.radius);
+        !(self.outside * self.outside).gt((reach2 + e2) * e2)
     }
 }
 
@@ -165,6 +181,13 @@ struct Sizes<L> {
 fn roundoffs_squared<L: Lane>(times: f64) -> L {
     let e = ROUNDINGS * <L::Scalar as Real>::ROUNDOFF;
     L::constant(times * e * e)
+}
+
+/// Of lengths where a ray starts, counted closely: rays that have left a surface start a hundred roundoffs away from it, and are to be
+/// in no doubt. Four of a way across add up along it and twelve across it, up to fourteen make a height.
+#[inline(always)]
+fn start_roundoffs<L: Lane>() -> f64 {
+    16.0 * <L::Scalar as Real>::ROUNDOFF
 }
 
 /// Heights along the axis, times its length.
@@ -188,6 +211,15 @@ impl<L: Lane> Rims<L> {
         let steepness = side.radius * self.along_d;
         let moved2 = e2 * (self.axis2 * root2 + steepness * steepness);
         !(clear * clear * root2).gt(moved2 * roundoffs_squared::<L>(4.0))
+    }
+
+    /// Lanes in which the plane of a cap, met at `t`, is so near to where the ray starts that rounding could put it on the other
+    /// side, or leave too little of `t`.
+    #[inline(always)]
+    fn are_started_at(&self, sizes: &Sizes<L>, t: L) -> L::Mask {
+        let e = doubt::clearance(L::constant(start_roundoffs::<L>()), t.gt(L::zero()));
+        let height = t * self.along_d;
+        !(height * height).gt(sizes.offset2 * self.axis2 * (e * e))
     }
 }
 
@@ -223,6 +255,16 @@ impl<L: Lane> Chord<L> {
             enters_on_side: side.first.ge(slab.first),
             leaves_on_side: side.last.le(slab.last),
         }
+    }
+
+    /// Lanes in which the ray starts so near to an end that rounding could change on which side of it that is, or too much
+    /// of `t`.
+    #[inline(always)]
+    fn starts_at_an_end(&self, sizes: &Sizes<L>, side: &Side<L>, rims: &Rims<L>) -> L::Mask {
+        let at_side = (self.enters_on_side | self.leaves_on_side) & side.is_started_at(sizes);
+        let at_first = rims.are_started_at(sizes, self.first) & !self.enters_on_side;
+        let at_last = rims.are_started_at(sizes, self.last) & !self.leaves_on_side;
+        self.inside & (at_side | at_first | at_last)
     }
 
     /// The first boundary beyond `t_min`: `(hit, t, on the side rather than a cap)`.

@@ -267,6 +267,19 @@ fn the_exact_tier_misses_a_wire_that_the_ray_passes() {
     assert!(!Filtered::cylinder(&r, &wire).mask, "made a hit of a wire that is passed");
 }
 
+/// Found by the fuzz target `tiers`: the ray starts inside by less than a roundoff.
+#[test]
+fn the_exact_tier_finds_a_side_just_ahead_of_the_start() {
+    let wide = |p: [f32; 3]| p.map(f64::from);
+    let ends =
+        [[6.1875005, 5.3125005, 5.3125005], [6.1875005, 2.9802322e-8, 0.0]].map(|p| Vec3::splat(wide(p)));
+    let c = Lanes { from: ends[0], to: ends[1], radius: f64::from(7.0625005f32), capped: true };
+    let r = ray(wide([2.125, 0.0, 2.9802322e-8]), wide([8.000001, -29.999998, 1.1920929e-7]));
+    let hit = Filtered::cylinder(&r, &c);
+    let want = 5.572884109553546e-18;
+    assert!(hit.mask && (hit.t - want).abs() < 1e-9 * want, "{hit:?}");
+}
+
 /// Hit or miss of each line is that of exact arithmetic, and `t` as well; and `f64` alone gets some wrong.
 fn assert_decided(name: &str, case: fn(&mut Dice, &Lanes<f64>) -> [Vec3<f64>; 2]) {
     let mut dice = Dice(45);

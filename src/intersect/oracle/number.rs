@@ -28,6 +28,18 @@ impl Unit {
         let magnitude = IBig::from(mantissa) << (exponent - self.0) as usize;
         if x < 0.0 { -magnitude } else { magnitude }
     }
+    /// The number that so many are of products of this unit and another, each so often a factor. Rounded once.
+    pub(in crate::intersect) fn drop(
+        self,
+        times: usize,
+        other: Self,
+        other_times: usize,
+        whole: IBig,
+    ) -> f64 {
+        let exponent = self.0 * times as i32 + other.0 * other_times as i32;
+        let power = |exponent: i32| exponent.max(0) as usize;
+        ratio(whole << power(exponent), IBig::ONE << power(-exponent))
+    }
     pub(super) fn point(self, p: [f64; 3]) -> Point {
         Point(p.map(|x| self.lift(x)))
     }

@@ -6,16 +6,16 @@
 //!   Ray Tracing Gems, ch. 7, 2019);
 //! - the root nearer to zero comes from `c / q`, not from a difference (same source);
 //! - in the `Watertight` tier `f32` lanes only sort out what certainly misses and `f64` decides, which also holds radii
-//!   from 1e-30 to 1e30 and directions of length 1e-20 to 1e20.
+//!   from 1e-30 to 1e30 and directions of length 1e-20 to 1e20;
+//! - in tier `Exact` lanes in which rounding could change whether the line meets the sphere, or whether that is before or
+//!   behind where the ray starts, are decided without rounding ([`exactly`]).
 
+mod exactly;
 pub mod oracle;
 
 use crate::intersect::doubt::{self, Doubt};
-use crate::intersect::oracle::number::Unit;
 use crate::intersect::{LaneHit, RayLanes};
-use crate::math::{
-    Aabb, Lane, Mask, Ring, Vec3, fused_dot, gamma, pairs, ring_cross, ring_dot, sign, two_sum,
-};
+use crate::math::{Aabb, Lane, Mask, Real, Vec3, fused_dot, gamma, gamma_of};
 
 /// Spheres as lanes.
 #[derive(Clone, Copy, Debug)]
@@ -36,31 +36,71 @@ impl<L: Lane> Lanes<L> {
 /// The first point of each sphere beyond `t_min`, in the number type of the lanes.
 #[inline(always)]
 pub fn solve<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
-    solve_rounded(ray, s, |t| t, |doubt| doubt.value)
+    solve_rounded(ray, s, |t| t, |_, chord| chord)
 }
 
-/// `round` is what becomes of `t` later: the root beyond `t_min` is chosen by the `t` that the caller will see. `settle`
-/// gives the discriminant its sign where that is in doubt.
+/// The part of a line inside a sphere.
+#[derive(Clone, Copy, Debug)]
+struct Chord<L: Lane> {
+    first: L,
+    last: L,
+    /// Empty elsewhere.
+    inside: L::Mask,
+}
+
+/// `round` is what becomes of `t` later: the root beyond `t_min` is chosen by the `t` that the caller will see. `settle` is
+/// given the lanes in which rounding could change whether the chord is there, or on which side of zero it ends.
 #[inline(always)]
 fn solve_rounded<L: Lane>(
     ray: &RayLanes<L>,
     s: &Lanes<L>,
     round: impl Fn(L) -> L,
-    settle: impl Fn(Doubt<L>) -> L,
+    settle: impl Fn(L::Mask, Chord<L>) -> Chord<L>,
 ) -> LaneHit<L> {
     let (f, d) = (ray.origin - s.center, ray.direction);
     let (a, b) = (d.length_squared(), f.dot(d));
-    let (r2, ff) = (s.radius * s.radius, f.length_squared());
+    let start = Start::new(f, s.radius);
     let across2 = (f - d * (b / a)).length_squared();
-    let discriminant = settle(Doubt::new(r2, across2, ff));
-    let mask = discriminant.ge(L::zero());
-    let q = -(b + (a * discriminant).sqrt().with_sign_of(b));
-    let c = ff - r2;
-    let (near, far) = (q / a, c / q);
-    // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
-    let (near, far) = (round(far.min(near)), round(far.max(near)));
-    let t = L::select(near.gt(ray.t_min), near, far);
-    LaneHit { mask, t, u: L::zero(), v: L::zero() }
+    let doubt = Doubt::new(start.r2, across2, start.offset2);
+    let inside = doubt.value.ge(L::zero());
+    let q = -(b + (a * doubt.value).sqrt().with_sign_of(b));
+    let far = q / a;
+    let near = doubt::no_farther(start.outside / q, far);
+    let chord = Chord { first: near.min(far), last: near.max(far), inside };
+    let chord = settle(doubt.is_open() | (inside & start.is_open(b)), chord);
+    let (first, last) = (round(chord.first), round(chord.last));
+    let t = L::select(first.gt(ray.t_min), first, last);
+    LaneHit { mask: chord.inside, t, u: L::zero(), v: L::zero() }
+}
+
+/// Where a ray starts: outside of the sphere, or inside.
+struct Start<L> {
+    offset2: L,
+    r2: L,
+    /// `|f|^2 - r^2`
+    outside: L,
+}
+
+impl<L: Lane> Start<L> {
+    #[inline(always)]
+    fn new(offset: Vec3<L>, radius: L) -> Self {
+        let (offset2, r2) = (offset.length_squared(), radius * radius);
+        Self { offset2, r2, outside: offset2 - r2 }
+    }
+
+    /// More than what `outside` may be off by: five roundings of one square and two of the other.
+    #[inline(always)]
+    fn error(&self) -> L {
+        (self.offset2 + self.r2) * L::constant(gamma_of(8, <L::Scalar as Real>::ROUNDOFF))
+    }
+
+    /// Lanes that start so near to the surface that rounding could put them on its other side, or leave too little of a `t` ahead. Else
+    /// the roots have the signs that they have exactly. `away` is `f . d`.
+    #[inline(always)]
+    fn is_open(&self, away: L) -> L::Mask {
+        let is_ahead = (self.outside * away).lt(L::zero());
+        !self.outside.abs().gt(doubt::clearance(self.error(), is_ahead))
+    }
 }
 
 /// The same in `f64`, for the lanes that [`may_hit`].
@@ -73,45 +113,43 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -
         return LaneHit::none();
     }
     let wide_lanes = L::widen_mask(lanes & s.radius.gt(L::zero()));
-    let settle = |doubt: Doubt<L::Double>| match doubt::is_exact::<L>() {
-        true => {
-            doubt.settle(wide_lanes, |i| is_met(&wide_ray.get(i), wide.center.get(i), wide.radius.get(i)))
+    let settle = |open: <L::Double as Lane>::Mask, chord: Chord<L::Double>| {
+        let open = open & wide_lanes;
+        if !doubt::is_exact::<L>() || !open.any() {
+            return chord;
         }
-        false => doubt.value,
+        chord
+            .settled(open.bits(), |i| exactly::ends(&wide_ray.get(i), wide.center.get(i), wide.radius.get(i)))
     };
     let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
     hit.mask = hit.mask & lanes;
     hit
 }
 
-/// Lanes that start outside or at the surface and go away from it, as most rays do that left it: as [`solve_rounded`] finds
-/// them, neither root is positive.
+impl<L: Lane> Chord<L> {
+    /// With some lanes as exact arithmetic finds them.
+    #[cold]
+    fn settled(self, lanes: u32, ends: impl Fn(usize) -> Option<[f64; 2]>) -> Self {
+        (0..L::WIDTH).filter(|i| lanes >> i & 1 != 0).fold(self, |all, i| {
+            let here = L::Mask::from_bits(1 << i);
+            let Some(ends) = ends(i) else { return Self { inside: all.inside & !here, ..all } };
+            let [first, last] = ends.map(L::constant);
+            Self {
+                first: L::select(here, first, all.first),
+                last: L::select(here, last, all.last),
+                inside: all.inside | here,
+            }
+        })
+    }
+}
+
+/// Lanes that certainly start outside and go away from it, as most rays do that left it: as [`solve_rounded`] finds them,
+/// neither root is positive.
 #[inline(always)]
 fn leaves<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {
     let (f, zero) = (ray.origin - s.center, L::zero());
-    let is_outside = (f.length_squared() - s.radius * s.radius).ge(zero);
-    f.dot(ray.direction).ge(zero) & is_outside & ray.t_min.ge(zero)
-}
-
-/// Whether the line meets the sphere, exactly; NaN, infinities and rays that go nowhere meet nothing.
-fn is_met(ray: &RayLanes<f64>, center: [f64; 3], radius: f64) -> bool {
-    let (origin, d) = (ray.origin.get(0), ray.direction.get(0));
-    let f: [_; 3] = std::array::from_fn(|k| two_sum(origin[k], -center[k]));
-    let size = (doubt::size(ray.direction) * (f.iter().map(|x| x[0].abs()).sum::<f64>() + radius)).powi(2);
-    size.is_finite()
-        && d != [0.0; 3]
-        && sign(inside(&f, &pairs(d), &[radius, 0.0]), size, || {
-            let unit = Unit::of(origin.into_iter().chain(center).chain([radius]));
-            let f = std::array::from_fn(|k| unit.lift(origin[k]) - unit.lift(center[k]));
-            inside(&f, &d.map(|x| Unit::of(d).lift(x)), &unit.lift(radius))
-        })
-        .is_ge()
-}
-
-/// `r^2 |d|^2 - |f x d|^2`: what the squares of radius and distance leave, times that of the direction's length.
-fn inside<N: Ring>(f: &[N; 3], d: &[N; 3], radius: &N) -> N {
-    let n = ring_cross(f, d);
-    radius.squared().times(&ring_dot(d, d)).minus(&ring_dot(&n, &n))
+    let start = Start::new(f, s.radius);
+    f.dot(ray.direction).ge(zero) & start.outside.gt(start.error()) & ray.t_min.ge(zero)
 }
 
 /// Lanes whose rays certainly hit nothing at `limit` or before: there they are still outside, and come nearer. NaN and infinities

@@ -118,6 +118,18 @@ fn a_ray_that_starts_where_it_touches_is_no_nan() {
     assert_eq!(both(&RayLanes { t_min: 0.0, ..touching }, &UNIT), [None; 2]);
 }
 
+/// Found by `verify`: the ray touches where it starts, but for a millionth of a roundoff, and what rounding makes of the root there was
+/// half a radius.
+#[test]
+fn a_ray_that_starts_where_it_nearly_touches_hits_nothing_far_away() {
+    let center = [0.00061035156, 0.00030517578, -0.00061035156];
+    let s = Lanes { center: Vec3::splat(center), radius: 0.00091552734f32 };
+    let r = ray([0.0, 2.1204858e-19, 0.0], [-0.25, 1.0, 0.25]);
+    for t in both(&r, &s).into_iter().flatten() {
+        assert!(t < 1e-5, "{t}");
+    }
+}
+
 #[test]
 fn behind_or_at_the_ends_of_the_range_does_not_count() {
     let r = ray([0.0, 0.0, -3.0], [0.0, 0.0, 1.0]);

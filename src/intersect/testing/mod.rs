@@ -15,6 +15,8 @@ pub(crate) mod meshes;
 pub(crate) mod pressed;
 #[cfg(test)]
 mod roots;
+#[cfg(test)]
+mod starts;
 
 #[cfg(test)]
 use super::{LaneHit, RayLanes};

@@ -29,6 +29,9 @@ pub enum Promise {
     Mixed,
     /// Curved surfaces of such radii where they are grazed, and cylinders of extreme shape: what `f32` says of `t` means little.
     Grazing,
+    /// Curved surfaces of such radii from points on or just beside them, where `t` of `f32` input is what rounding leaves
+    /// of nearly nothing in all tiers but `exact`.
+    Nearby,
     /// Shapes and distances of very different magnitude.
     Magnitudes,
     /// Boxes.
@@ -96,7 +99,7 @@ impl Promise {
             Self::Rims => Bounds { leaks: ZERO, ..right },
             Self::Triangles | Self::Ordinary | Self::Magnitudes => Bounds { t_p99: Some(4.0), ..right },
             Self::Mixed => Bounds { t_p99: Some(10.0), ..right },
-            Self::EdgeOn | Self::Starting | Self::Ground | Self::Grazing => right,
+            Self::EdgeOn | Self::Starting | Self::Ground | Self::Grazing | Self::Nearby => right,
             Self::Leaks => Bounds { leaks: Some(FAST_LEAKS), ..NOTHING },
             Self::Leaving => Bounds { self_hits: Some(50_000.0), ..NOTHING },
             Self::Glass => Bounds { self_hits: ZERO, ..NOTHING },
@@ -106,7 +109,7 @@ impl Promise {
 
     fn watertight(self) -> Bounds {
         let t_p99 = match self {
-            Self::EdgeOn | Self::Beyond => None,
+            Self::EdgeOn | Self::Nearby | Self::Beyond => None,
             Self::Closed => Some(2.0),
             Self::Starting => Some(1.0),
             _ => Some(0.5),

@@ -41,6 +41,11 @@ fn cylinders_keep_their_bounds() {
 }
 
 #[test]
+fn rays_that_start_on_curved_surfaces_keep_their_bounds() {
+    hold(&["on-curved"]);
+}
+
+#[test]
 fn boxes_cull_no_hit() {
     hold(&["boxes", "box-planes"]);
 }

@@ -69,7 +69,8 @@ fn smooth_normal<D: Double>([n0, n1, n2]: [Vec3<D>; 3], [w, u, v]: [D; 3], geome
     Vec3::select(usable, same_side.normalize(), geometric)
 }
 
-/// The point pulled back to the sphere along its radius.
+/// The point pulled back to the sphere along its radius: 8 roundoffs off it. With as many as the primitive test of tier `Exact`
+/// allows for the place of a ray's start, and some for the offset, that test is in no doubt about rays that leave.
 #[inline(always)]
 fn sphere<D: Double>(g: &Geometry, hit: &HitLanes<D>, wanted: Wanted) -> (SurfaceLanes<D>, D) {
     let s = &g.spheres;
@@ -78,7 +79,7 @@ fn sphere<D: Double>(g: &Geometry, hit: &HitLanes<D>, wanted: Wanted) -> (Surfac
     let size = center.abs().max_component() + radius;
     let surface = SurfaceLanes {
         point: center + normal * radius,
-        error: size * roundoffs(8),
+        error: size * roundoffs(20),
         geometric_normal: normal,
         shading_normal: normal,
         uv: if wanted.uv { octahedral(normal) } else { (hit.u, hit.v) },
@@ -101,7 +102,8 @@ fn octahedral<D: Double>(n: Vec3<D>) -> (D, D) {
     (a * half + half, b * half + half)
 }
 
-/// The point pulled back to the side along its radius, or to the cap along the axis.
+/// The point pulled back to the side along its radius, or to the cap along the axis: 20 roundoffs off it, and more as for spheres, of
+/// the distance from an end, which may be 3.5 times the largest coordinate.
 #[inline(always)]
 fn cylinder<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) {
     let c = &g.cylinders;
@@ -119,7 +121,7 @@ fn cylinder<D: Double>(g: &Geometry, hit: &HitLanes<D>) -> (SurfaceLanes<D>, D) 
     let size = from.abs().max(to.abs()).max_component() + radius;
     let surface = SurfaceLanes {
         point: Vec3::select(is_side, from + along + outward * radius, on_cap),
-        error: size * roundoffs(20),
+        error: size * roundoffs(96),
         geometric_normal: normal,
         shading_normal: normal,
         uv: (hit.u, hit.v),

@@ -10,6 +10,7 @@ mod mixed;
 mod paths;
 mod placed;
 mod spheres;
+mod starting;
 mod triangles;
 
 use super::bounds::Promise;
@@ -48,6 +49,7 @@ impl Family {
             triangles::FAMILIES,
             spheres::FAMILIES,
             cylinders::FAMILIES,
+            starting::FAMILIES,
             boxes::FAMILIES,
         ];
         tables.into_iter().chain([mixed::FAMILIES, paths::FAMILIES]).flatten()
