@@ -36,18 +36,14 @@ impl<L: Lane> Lanes<L> {
 /// The first point of each sphere beyond `t_min`, in the number type of the lanes.
 #[inline(always)]
 pub fn solve<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
-    solve_rounded(ray, s, |t| t, |doubt| doubt.value)
+    let (mask, roots) = roots(ray, s, |doubt| doubt.value);
+    first_beyond(ray.t_min, mask, roots)
 }
 
-/// `round` is what becomes of `t` later: the root beyond `t_min` is chosen by the `t` that the caller will see. `settle`
-/// gives the discriminant its sign where that is in doubt.
+/// The lanes that meet their spheres, and where they enter and leave. `settle` gives the discriminant its sign where that is
+/// in doubt.
 #[inline(always)]
-fn solve_rounded<L: Lane>(
-    ray: &RayLanes<L>,
-    s: &Lanes<L>,
-    round: impl Fn(L) -> L,
-    settle: impl Fn(Doubt<L>) -> L,
-) -> LaneHit<L> {
+fn roots<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>, settle: impl Fn(Doubt<L>) -> L) -> (L::Mask, [L; 2]) {
     let (f, d) = (ray.origin - s.center, ray.direction);
     let (a, b) = (d.length_squared(), f.dot(d));
     let (r2, ff) = (s.radius * s.radius, f.length_squared());
@@ -58,9 +54,13 @@ fn solve_rounded<L: Lane>(
     let c = ff - r2;
     let (near, far) = (q / a, c / q);
     // In this order a NaN of `c / q`, from a ray that starts at the point where it touches, gives the other root.
-    let (near, far) = (round(far.min(near)), round(far.max(near)));
-    let t = L::select(near.gt(ray.t_min), near, far);
-    LaneHit { mask, t, u: L::zero(), v: L::zero() }
+    (mask, [far.min(near), far.max(near)])
+}
+
+/// The root beyond `t_min`, chosen by the `t` that the caller will see.
+#[inline(always)]
+fn first_beyond<L: Lane>(t_min: L, mask: L::Mask, [near, far]: [L; 2]) -> LaneHit<L> {
+    LaneHit { mask, t: L::select(near.gt(t_min), near, far), u: L::zero(), v: L::zero() }
 }
 
 /// The same in `f64`, for the lanes that [`may_hit`].
@@ -79,13 +79,12 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -
         }
         false => doubt.value,
     };
-    let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
-    hit.mask = hit.mask & lanes;
-    hit
+    let (met, roots) = roots(&wide_ray, &wide, settle);
+    first_beyond(ray.t_min, lanes & L::narrow_mask(met), roots.map(L::narrow))
 }
 
-/// Lanes that start outside or at the surface and go away from it, as most rays do that left it: as [`solve_rounded`] finds
-/// them, neither root is positive.
+/// Lanes that start outside or at the surface and go away from it, as most rays do that left it: neither of their [`roots`] is
+/// positive.
 #[inline(always)]
 fn leaves<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {
     let (f, zero) = (ray.origin - s.center, L::zero());
