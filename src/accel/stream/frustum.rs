@@ -15,6 +15,7 @@
 mod apex;
 mod edges;
 mod focus;
+mod rounds;
 mod slopes;
 mod surround;
 #[cfg(test)]
@@ -30,6 +31,7 @@ pub use apex::Apex;
 pub(super) use edges::Edges;
 use edges::{Eight, Middle};
 pub(super) use focus::focus;
+pub(super) use rounds::Rounds;
 use slopes::{Slopes, greatest};
 use view::{Boxes, View};
 

@@ -17,8 +17,11 @@ use crate::accel::block::RaysByPrimitive;
 use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
 use crate::accel::query::Query;
 use crate::intersect::triangle::Glimpse;
-use crate::intersect::{Tier, TriangleTest};
+use crate::intersect::{Curved, Tier, TriangleTest};
 use crate::math::{Lane, Mask, three};
+
+/// Pairs of packets and round primitives from which it pays to look at what the rays have in common.
+const MANY_PAIRS: usize = 6;
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
     #[inline(always)]
@@ -27,7 +30,8 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
         let Some(corners) = block.corners_of_triangles() else {
             let extent = three(|k| block.extent(k));
             let sight = frustum.sight(&frustum.view().boxes(|k| extent[k][0], |k| extent[k][1]));
-            return self.visit_primitives(block, &sight, None, frustum.sees(&sight) & there);
+            let met = frustum.sees(&sight) & there;
+            return met != 0 && self.visit_primitives(block, &sight, None, met);
         };
         let corners = three(|v| frustum.view().point(|k| f32x8::new(corners[v][k])));
         let [a, b, c] = corners;
@@ -101,14 +105,17 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     fn find_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>) -> usize {
         let work = &mut *self.work;
         let mut count = 0;
+        let sifts = T::Curved::SIFTS && work.pairs.len() >= MANY_PAIRS;
+        let rounds = block.round().filter(|_| sifts).map(|round| self.frustum.rounds(round));
         for k in 0..work.pairs.len() {
             let pair = work.pairs.get(k);
             let (i, j) = (pair.row(), pair.lane());
             let asks = if Q::ANY { work.asks[j] } else { 0xff };
-            let lanes = match edges {
-                Some(edges) => edges.may_hit(i, self.frustum.eight(j)),
+            let lanes = match (edges, &rounds) {
+                (Some(edges), _) => edges.may_hit(i, self.frustum.eight(j)),
+                (_, Some(rounds)) => self.frustum.may_hit(rounds, i, j),
                 // Prepared for nothing: that means nothing but to triangles.
-                None => {
+                _ => {
                     let rays = TestRays { ray: &self.rays[j], triangle: &work.prepared[j] };
                     block.may_hit::<T, RaysByPrimitive>(i, &rays).bits()
                 }
