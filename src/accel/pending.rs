@@ -63,7 +63,7 @@ impl<T: Tier> Pending<T> {
 
     /// Puts lanes that need primitive `i` of a block to the query. Distances go on waiting where their bounds tell which is nearer.
     #[inline(always)]
-    fn meet<B: Testable, Q: Query<T::Wide>>(
+    pub(super) fn meet<B: Testable, Q: Query<T::Wide>>(
         &mut self,
         (block, i): (&B, usize),
         lanes: Lanes<T>,

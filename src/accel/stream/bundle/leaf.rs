@@ -13,7 +13,7 @@ use wide::f32x8;
 
 use super::super::frustum::{Edges, Sight};
 use super::{Bundle, TRIANGLE_FOR_ANY};
-use crate::accel::block::RaysByPrimitive;
+use crate::accel::block::{RaysByPrimitive, Round};
 use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
 use crate::accel::query::Query;
 use crate::intersect::triangle::Glimpse;
@@ -76,7 +76,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         self.met += each * met.count_ones() as usize;
         self.find_pairs(sight, met);
         let count = self.find_likely(block, edges);
-        let accepted = self.ask_likely(block, edges, count);
+        let accepted = self.ask_likely(block, (sight, edges), count);
         let mut left = accepted;
         while left != 0 {
             self.look(left.trailing_zeros() as usize & 7);
@@ -128,7 +128,12 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
 
     /// Puts so many of the likely pairs to the queries; gives the packets that accepted a hit.
     #[inline(always)]
-    fn ask_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>, count: usize) -> u32 {
+    fn ask_likely<B: Testable>(
+        &mut self,
+        block: &B,
+        (sight, edges): (&Sight, Option<&Edges>),
+        count: usize,
+    ) -> u32 {
         let edges_tell = edges.filter(|_| T::Triangle::GLIMPSES && self.frustum.tells_meetings);
         let mut accepted = 0;
         for k in 0..count {
@@ -138,6 +143,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
                 Some(edges) if edges.large >> pair.row() & 1 != 0 => {
                     self.ask_by_edges((block, pair.row()), edges, j, Mask::from_bits(lanes))
                 }
+                None if T::Curved::SIFTS && !Q::ANY => self.ask_round((block, pair.row()), sight, j, lanes),
                 _ => self.ask((block, pair.row()), j, Mask::from_bits(lanes)),
             };
             accepted |= u32::from(accepts) << j;
@@ -163,6 +169,25 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         let accepts = unclear.any() && self.ask((block, i), j, unclear);
         self.work.waits |= 1 << j;
         self.work.pending[j].take((block, i), certain, &seen, &mut self.queries[j]) | accepts
+    }
+
+    /// The same for a round primitive; lanes as bits. Of a sphere its box tells well enough which lanes have found something
+    /// nearer.
+    #[inline(always)]
+    fn ask_round<B: Testable>(
+        &mut self,
+        (block, i): (&B, usize),
+        sight: &Sight,
+        j: usize,
+        mut lanes: u32,
+    ) -> bool {
+        let Some(Round::Spheres { .. }) = block.round() else {
+            return self.ask((block, i), j, Mask::from_bits(lanes));
+        };
+        lanes &= self.frustum.reaching(sight, i, j, T::above_f32(self.queries[j].limit()));
+        let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
+        lanes != 0
+            && self.work.pending[j].meet((block, i), Mask::from_bits(lanes), &rays, &mut self.queries[j])
     }
 
     /// The same by the primitive test.

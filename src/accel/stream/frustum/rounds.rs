@@ -66,7 +66,8 @@ impl Frustum {
                 let product = (product + f32x8::splat(1.5) * spread * length) * f32x8::splat(SQUARES);
                 let about = Lane::max(size.x, size.y) + self.middle.spread * size.z;
                 let rounding = about * about * f32x8::splat((PRODUCT_ROUNDOFFS * f32::ROUNDOFF) as f32);
-                let reach = (f32x8::new(*radius) + off) * product + rounding + f32x8::splat(f32::MIN_POSITIVE);
+                let reach =
+                    (f32x8::new(*radius) + off) * product + rounding + f32x8::splat(f32::MIN_POSITIVE);
                 Rounds::Cylinders { moment: fused_cross(p, q), reach }
             }
         }
