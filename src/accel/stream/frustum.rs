@@ -31,7 +31,6 @@ pub use apex::Apex;
 pub(super) use edges::Edges;
 use edges::{Eight, Middle};
 pub(super) use focus::focus;
-pub(super) use rounds::Rounds;
 use slopes::{Slopes, greatest};
 use view::{Boxes, View};
 

@@ -1,3 +1,5 @@
+mod rounds;
+
 use super::{Apex, Frustum, focus};
 use crate::accel::instance::TreeRoot;
 use crate::intersect::testing::dice::Dice;
