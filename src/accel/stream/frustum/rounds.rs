@@ -8,7 +8,8 @@
 //!   `|d x (q - p)|` is no more than that of the middle and `1.5 s |q - p|`, and of `|c x d|^2`, which is
 //!   `u^2 + v^2 + (u y - v x + (u b - v a))^2` where the ray has `u, v` to go across to `c`, what stands in inner brackets
 //!   takes no more than `4 s max(|x|, |y|)` of the rest;
-//! - rays may be off by as much as the sides of the pyramid are moved outwards, on both axes: so may distances, 1.5 times.
+//! - rays may be off by as much as the sides of the pyramid are moved outwards, on both axes, so distances by 1.5 times that:
+//!   most of it is for boxes, and left for what the primitive tests of any tier may be off by.
 
 use wide::f32x8;
 
