@@ -21,8 +21,9 @@ use crate::intersect::triangle::Glimpse;
 use crate::intersect::{Curved, Tier, TriangleTest};
 use crate::math::{Lane, Mask, three};
 
-/// Pairs of packets and round primitives from which it pays to look at what the rays have in common.
-const MANY_PAIRS: usize = 6;
+/// Pairs of packets and round primitives from which it pays to look at what the rays have in common: camera rays, and those for
+/// which any hit will do, as their own tests tell more of what is behind.
+const MANY_PAIRS: [usize; 2] = [6, 24];
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
     #[inline(always)]
@@ -106,7 +107,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     fn find_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>) -> usize {
         let work = &mut *self.work;
         let mut count = 0;
-        let sifts = T::Curved::SIFTS && work.pairs.len() >= MANY_PAIRS;
+        let sifts = T::Curved::SIFTS && work.pairs.len() >= MANY_PAIRS[usize::from(Q::ANY)];
         let rounds = block.round().filter(|_| sifts).map(|round| self.frustum.rounds(round));
         for k in 0..work.pairs.len() {
             let pair = work.pairs.get(k);
