@@ -1,64 +1,13 @@
 //! Leaves: up to eight primitives of a kind, stored so that a test loads them as lanes.
 
+mod walk;
+
+pub use walk::{PrimitivesByRay, RaysByPrimitive, Walk};
+
 use crate::geometry::Geometry;
 use crate::intersect::{PrimId, PrimKind, cylinder, sphere};
 use crate::math::{Lane, Mask, Vec3, WIDTH, eight, three};
 use wide::{f32x8, u32x8};
-
-/// How a leaf is walked: which primitive stands in which lane at a step.
-pub trait Walk: Copy {
-    /// A stored column at a step.
-    fn value<L: Lane>(column: &[f32; WIDTH], step: usize) -> L;
-    /// Stored ids at a step.
-    fn ids<B: crate::math::BitLane>(column: &[u32; WIDTH], step: usize) -> B;
-    /// Stored vectors at a step.
-    #[inline(always)]
-    fn vec3<L: Lane>(columns: &[[f32; WIDTH]; 3], step: usize) -> Vec3<L> {
-        let [x, y, z] = columns;
-        Vec3::new(Self::value(x, step), Self::value(y, step), Self::value(z, step))
-    }
-    /// Stored truth values at a step.
-    fn flags<M: Mask>(bits: u32, step: usize) -> M;
-}
-
-/// Eight rays against one primitive a step.
-#[derive(Clone, Copy, Debug)]
-pub struct RaysByPrimitive;
-
-/// One ray against eight primitives at once.
-#[derive(Clone, Copy, Debug)]
-pub struct PrimitivesByRay;
-
-impl Walk for RaysByPrimitive {
-    #[inline(always)]
-    fn value<L: Lane>(column: &[f32; WIDTH], step: usize) -> L {
-        use crate::math::Real;
-        L::splat(L::Scalar::from_f32(column[step]))
-    }
-    #[inline(always)]
-    fn ids<B: crate::math::BitLane>(column: &[u32; WIDTH], step: usize) -> B {
-        B::splat(column[step])
-    }
-    #[inline(always)]
-    fn flags<M: Mask>(bits: u32, step: usize) -> M {
-        M::splat(bits >> step & 1 != 0)
-    }
-}
-
-impl Walk for PrimitivesByRay {
-    #[inline(always)]
-    fn value<L: Lane>(column: &[f32; WIDTH], _: usize) -> L {
-        L::load_f32(column)
-    }
-    #[inline(always)]
-    fn ids<B: crate::math::BitLane>(column: &[u32; WIDTH], _: usize) -> B {
-        B::from_fn(|i| column[i])
-    }
-    #[inline(always)]
-    fn flags<M: Mask>(bits: u32, _: usize) -> M {
-        M::from_bits(bits)
-    }
-}
 
 /// Up to eight triangles by their corners: a shared vertex must be the same three numbers in every triangle.
 /// Free lanes, the last ones, hold NaN, which no ray hits, and an id that no primitive has.
@@ -205,6 +154,25 @@ impl CylinderBlock {
     }
 }
 
+/// Columns of round primitives.
+#[derive(Clone, Copy, Debug)]
+pub enum Round<'a> {
+    /// Spheres.
+    Spheres {
+        /// Centres, by axis.
+        center: &'a [[f32; WIDTH]; 3],
+        /// Radii.
+        radius: &'a [f32; WIDTH],
+    },
+    /// Cylinders.
+    Cylinders {
+        /// Centres of both caps, by axis.
+        ends: [&'a [[f32; WIDTH]; 3]; 2],
+        /// Radii.
+        radius: &'a [f32; WIDTH],
+    },
+}
+
 /// A block of primitives that rays are tested against.
 pub trait Block {
     /// How many primitives count.
@@ -213,6 +181,11 @@ pub trait Block {
     fn ids(&self) -> &[u32; WIDTH];
     /// Their boxes along an axis, least and greatest coordinates, up to a roundoff; NaN in free lanes.
     fn extent(&self, axis: usize) -> [f32x8; 2];
+    /// Where they stand, if they are round.
+    #[inline(always)]
+    fn round(&self) -> Option<Round<'_>> {
+        None
+    }
     /// The corners, if they are triangles.
     fn corners_of_triangles(&self) -> Option<&[[[f32; WIDTH]; 3]; 3]> {
         None
@@ -260,6 +233,10 @@ impl Block for SphereBlock {
         let (center, radius) = (f32x8::new(self.center[axis]), f32x8::new(self.radius));
         [center - radius, center + radius]
     }
+    #[inline(always)]
+    fn round(&self) -> Option<Round<'_>> {
+        Some(Round::Spheres { center: &self.center, radius: &self.radius })
+    }
 }
 
 /// The box of the balls around both ends holds the cylinder.
@@ -270,5 +247,9 @@ impl Block for CylinderBlock {
         let (from, to) = (f32x8::new(self.from[axis]), f32x8::new(self.to[axis]));
         let radius = f32x8::new(self.radius);
         [Lane::min(from, to) - radius, Lane::max(from, to) + radius]
+    }
+    #[inline(always)]
+    fn round(&self) -> Option<Round<'_>> {
+        Some(Round::Cylinders { ends: [&self.from, &self.to], radius: &self.radius })
     }
 }

@@ -38,7 +38,6 @@ impl<T: Tier> Pending<T> {
         query: &mut Q,
     ) -> bool {
         let Some(mut seen) = block.glimpse::<T, RaysByPrimitive>(i, rays) else {
-            self.settle(rays.ray, query);
             let mut needed = block.needed::<T, RaysByPrimitive, Q>(i, lanes, rays, query);
             let mut accepted = false;
             if Q::ANY {
@@ -46,7 +45,7 @@ impl<T: Tier> Pending<T> {
                 query.take(sure, T::Wide::zero(), BitLane::splat(block.ids()[i]));
                 (accepted, needed) = (sure.any(), needed & !sure);
             }
-            return needed.any() && block.ask::<T, RaysByPrimitive, Q>(i, needed, rays, query) || accepted;
+            return needed.any() && self.meet((block, i), needed, rays, query) || accepted;
         };
         seen.inside = lanes & seen.inside;
         let (certain, mut unclear) = self.sort(&seen, rays.ray.t_min, query.limit());
@@ -60,6 +59,28 @@ impl<T: Tier> Pending<T> {
             accepted = block.ask::<T, RaysByPrimitive, Q>(i, unclear, rays, query);
         }
         self.take((block, i), certain, &seen, query) | accepted
+    }
+
+    /// Puts lanes that need primitive `i` of a block to the query. Distances go on waiting where their bounds tell which is nearer.
+    #[inline(always)]
+    pub(super) fn meet<B: Testable, Q: Query<T::Wide>>(
+        &mut self,
+        (block, i): (&B, usize),
+        lanes: Lanes<T>,
+        rays: &TestRays<T>,
+        query: &mut Q,
+    ) -> bool {
+        let hit = block.hit::<T, RaysByPrimitive>(i, lanes, rays, query.limit());
+        if T::Triangle::GLIMPSES && !Q::ANY {
+            let reached = self.lanes & hit.mask & hit.t.le(query.limit());
+            if (reached & hit.t.ge(self.near)).any() {
+                self.settle(rays.ray, query);
+            } else {
+                // Hits at or before `t_min` do not count.
+                self.lanes = self.lanes & !(reached & hit.t.gt(rays.ray.t_min));
+            }
+        }
+        query.accept(rays.ray, &hit, RaysByPrimitive::ids(block.ids(), i))
     }
 
     /// Takes lanes that certainly hit primitive `i` of a block, nearer than anything so far; true if there are any.

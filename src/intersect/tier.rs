@@ -75,6 +75,8 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
 
 /// How spheres and cylinders are decided.
 pub trait Curved: Copy + Send + Sync + 'static {
+    /// True if meeting them costs more than telling which rays may.
+    const SIFTS: bool;
     /// Lanes whose rays may hit their spheres, as far as is cheap to tell.
     fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> L::Mask;
     /// Meets those lanes with their spheres.
@@ -143,6 +145,7 @@ pub struct Direct;
 pub struct Filtered;
 
 impl Curved for Direct {
+    const SIFTS: bool = false;
     #[inline(always)]
     fn may_hit_sphere<L: Lane>(_: &RayLanes<L>, _: &sphere::Lanes<L>) -> L::Mask {
         L::Mask::splat(true)
@@ -162,6 +165,7 @@ impl Curved for Direct {
 }
 
 impl Curved for Filtered {
+    const SIFTS: bool = true;
     #[inline(always)]
     fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> L::Mask {
         sphere::may_hit(ray, s)

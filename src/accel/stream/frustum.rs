@@ -16,6 +16,7 @@ mod apex;
 mod edges;
 mod focus;
 mod plane;
+mod rounds;
 mod slopes;
 mod surround;
 #[cfg(test)]
@@ -165,6 +166,14 @@ impl Frustum {
         let reach = f32x8::new(self.packet_reach) + self.side_pad;
         let nearest = f32x8::splat(sight.nearest.get(i));
         (sight.slopes.splat(i).overlap(&self.packets) & nearest.le(reach)).bits()
+    }
+
+    /// Lanes of packet `j` that look as far as primitive `i`, given their limits.
+    #[inline(always)]
+    pub(super) fn reaching(&self, sight: &Sight, i: usize, j: usize, limit: f32x8) -> u32 {
+        let reach = limit.mul_add_fast(self.along[j], self.start[j]) + self.side_pad;
+        let nearest = f32x8::splat(sight.nearest.get(i));
+        if self.apex.is_target() { 0xff } else { nearest.le(reach).bits() }
     }
 
     /// Lanes where no side of the pyramid has the whole box outside.

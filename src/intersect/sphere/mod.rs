@@ -36,7 +36,8 @@ impl<L: Lane> Lanes<L> {
 /// The first point of each sphere beyond `t_min`, in the number type of the lanes.
 #[inline(always)]
 pub fn solve<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> LaneHit<L> {
-    solve_rounded(ray, s, |t| t, |_, chord| chord)
+    let chord = chord(ray, s, |_, chord| chord);
+    first_beyond(ray.t_min, chord.inside, [chord.first, chord.last])
 }
 
 /// The part of a line inside a sphere.
@@ -48,15 +49,14 @@ struct Chord<L: Lane> {
     inside: L::Mask,
 }
 
-/// `round` is what becomes of `t` later: the root beyond `t_min` is chosen by the `t` that the caller will see. `settle` is
-/// given the lanes in which rounding could change whether the chord is there, or on which side of zero it ends.
+/// Where lines are inside their spheres. `settle` is given the lanes in which rounding could change whether they are at all, or on
+/// which side of zero that ends.
 #[inline(always)]
-fn solve_rounded<L: Lane>(
+fn chord<L: Lane>(
     ray: &RayLanes<L>,
     s: &Lanes<L>,
-    round: impl Fn(L) -> L,
     settle: impl Fn(L::Mask, Chord<L>) -> Chord<L>,
-) -> LaneHit<L> {
+) -> Chord<L> {
     let (f, d) = (ray.origin - s.center, ray.direction);
     let (a, b) = (d.length_squared(), f.dot(d));
     let start = Start::new(f, s.radius);
@@ -67,10 +67,13 @@ fn solve_rounded<L: Lane>(
     let far = q / a;
     let near = doubt::no_farther(start.outside / q, far);
     let chord = Chord { first: near.min(far), last: near.max(far), inside };
-    let chord = settle(doubt.is_open() | (inside & start.is_open(b)), chord);
-    let (first, last) = (round(chord.first), round(chord.last));
-    let t = L::select(first.gt(ray.t_min), first, last);
-    LaneHit { mask: chord.inside, t, u: L::zero(), v: L::zero() }
+    settle(doubt.is_open() | (inside & start.is_open(b)), chord)
+}
+
+/// The root beyond `t_min`, chosen by the `t` that the caller will see.
+#[inline(always)]
+fn first_beyond<L: Lane>(t_min: L, mask: L::Mask, [first, last]: [L; 2]) -> LaneHit<L> {
+    LaneHit { mask, t: L::select(first.gt(t_min), first, last), u: L::zero(), v: L::zero() }
 }
 
 /// Where a ray starts: outside of the sphere, or inside.
@@ -121,9 +124,9 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &Lanes<L>) -
         chord
             .settled(open.bits(), |i| exactly::ends(&wide_ray.get(i), wide.center.get(i), wide.radius.get(i)))
     };
-    let mut hit = LaneHit::narrow(solve_rounded(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
-    hit.mask = hit.mask & lanes;
-    hit
+    let chord = chord(&wide_ray, &wide, settle);
+    let roots = [chord.first, chord.last].map(L::narrow);
+    first_beyond(ray.t_min, lanes & L::narrow_mask(chord.inside), roots)
 }
 
 impl<L: Lane> Chord<L> {
@@ -143,7 +146,7 @@ impl<L: Lane> Chord<L> {
     }
 }
 
-/// Lanes that certainly start outside and go away from it, as most rays do that left it: as [`solve_rounded`] finds them,
+/// Lanes that certainly start outside and go away from it, as most rays do that left it: as [`chord`] finds them,
 /// neither root is positive.
 #[inline(always)]
 fn leaves<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {

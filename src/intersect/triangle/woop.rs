@@ -24,7 +24,7 @@ pub struct Woop;
 /// the normal: thousands of roundoffs of `f64`.
 const LEAST_HEIGHT: f64 = 1e-11;
 
-/// The shear that maps a ray to an axis, and the ray's slabs.
+/// The shear that maps a ray to an axis.
 #[derive(Clone, Copy, Debug)]
 pub struct Shear<L: Lane> {
     along_x: L::Mask,
@@ -34,7 +34,6 @@ pub struct Shear<L: Lane> {
     shear_y: L,
     /// How much `t` grows along the axis; NaN where the own box may err on so short or long a direction.
     per_z: L,
-    own: OwnBox<L>,
 }
 
 impl<L: Lane> Shear<L> {
@@ -42,10 +41,9 @@ impl<L: Lane> Shear<L> {
         let size = ray.direction.abs();
         let along_x = size.x.ge(size.y) & size.x.ge(size.z);
         let along_y = !along_x & size.y.ge(size.z);
-        let own = OwnBox::new(ray.origin, ray.direction);
         let shared = shared_axis::<L>(along_x, along_y);
         let (shear_x, shear_y, per_z) = (L::zero(), L::zero(), L::one());
-        let mut s = Self { along_x, along_y, shared, shear_x, shear_y, per_z, own };
+        let mut s = Self { along_x, along_y, shared, shear_x, shear_y, per_z };
         let d = s.permute(ray.direction);
         (s.shear_x, s.shear_y) = (d.x / d.z, d.y / d.z);
         let per_z = L::one() / d.z;
@@ -116,11 +114,11 @@ impl TriangleTest for Woop {
     fn hit<L: Lane>(
         lanes: L::Mask,
         ray: &RayLanes<L>,
-        shear: &Shear<L>,
+        _: &Shear<L>,
         v: [Vec3<L>; 3],
         limit: L,
     ) -> LaneHit<L> {
-        within_own_box(lanes, ray, &shear.own, v, limit)
+        within_own_box(lanes, ray, v, limit)
     }
 
     const GLIMPSES: bool = true;
@@ -177,8 +175,7 @@ impl TriangleTest for Woop {
 
     #[inline(always)]
     fn test_candidates<L: Lane>(ray: &RayLanes<L>, vertices: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
-        let own = OwnBox::new(ray.origin, ray.direction);
-        within_own_box(L::Mask::splat(true), ray, &own, vertices, limit)
+        within_own_box(L::Mask::splat(true), ray, vertices, limit)
     }
 }
 
@@ -206,13 +203,9 @@ impl<R: Real> OneShear<R> {
 
 /// Of the lanes that passed the edges, those that meet the triangle's own box, with where at the triangle.
 #[inline(always)]
-fn within_own_box<L: Lane>(
-    mask: L::Mask,
-    ray: &RayLanes<L>,
-    own: &OwnBox<L>,
-    v: [Vec3<L>; 3],
-    limit: L,
-) -> LaneHit<L> {
+fn within_own_box<L: Lane>(mask: L::Mask, ray: &RayLanes<L>, v: [Vec3<L>; 3], limit: L) -> LaneHit<L> {
+    // Most rays are asked so little that preparing this for each would cost more.
+    let own = OwnBox::new(ray.origin, ray.direction);
     let (lo, hi) = (v[0].min(v[1]).min(v[2]), v[0].max(v[1]).max(v[2]));
     let (first, last) = own.interval(lo, hi);
     let mask = mask & first.le(last) & ray.t_min.le(last) & first.le(limit);

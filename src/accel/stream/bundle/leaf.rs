@@ -8,19 +8,24 @@
 //! - edges also tell of most rays from a camera that they certainly hit, and where within bounds; the others run the
 //!   primitive test: loops that overlap from pair to pair and have little to guess;
 //! - of other rays that certainly pass inside the edges of a large triangle its plane tells, most of all of what they left;
-//! - where triangles cover more than the pyramid their boxes tell little, so edges come first.
+//! - where triangles cover more than the pyramid their boxes tell little, so edges come first;
+//! - of how far rays pass by spheres and cylinders most is the same for all, too (`frustum::rounds`).
 
 use wide::f32x8;
 
 use super::super::candidates::Candidate;
 use super::super::frustum::{Edges, Sight};
 use super::{Bundle, TRIANGLE_FOR_ANY};
-use crate::accel::block::RaysByPrimitive;
+use crate::accel::block::{RaysByPrimitive, Round};
 use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
 use crate::accel::query::Query;
 use crate::intersect::triangle::Glimpse;
-use crate::intersect::{Tier, TriangleTest};
+use crate::intersect::{Curved, Tier, TriangleTest};
 use crate::math::{BitLane, Lane, Mask, WIDTH, three};
+
+/// Pairs of packets and round primitives from which it pays to look at what the rays have in common: camera rays, and those for
+/// which any hit will do, as their own tests tell more of what is behind.
+const MANY_PAIRS: [usize; 2] = [6, 24];
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
     #[inline(always)]
@@ -29,7 +34,8 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
         let Some(corners) = block.corners_of_triangles() else {
             let extent = three(|k| block.extent(k));
             let sight = frustum.sight(&frustum.view().boxes(|k| extent[k][0], |k| extent[k][1]));
-            return self.visit_primitives(block, &sight, None, frustum.sees(&sight) & there);
+            let met = frustum.sees(&sight) & there;
+            return met != 0 && self.visit_primitives(block, &sight, None, met);
         };
         let corners = three(|v| frustum.view().point(|k| f32x8::new(corners[v][k])));
         let [a, b, c] = corners;
@@ -79,7 +85,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         }
         self.find_pairs(sight, met);
         let count = self.find_likely(block, edges, count);
-        accepted |= self.ask_likely(block, edges, count);
+        accepted |= self.ask_likely(block, (sight, edges), count);
         let mut left = accepted;
         while left != 0 {
             self.look(left.trailing_zeros() as usize & 7);
@@ -187,14 +193,17 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     #[inline(always)]
     fn find_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>, mut count: usize) -> usize {
         let work = &mut *self.work;
+        let sifts = T::Curved::SIFTS && work.pairs.len() >= MANY_PAIRS[usize::from(Q::ANY)];
+        let rounds = block.round().filter(|_| sifts).map(|round| self.frustum.rounds(round));
         for k in 0..work.pairs.len() {
             let pair = work.pairs.get(k);
             let (i, j) = (pair.row(), pair.lane());
             let asks = if Q::ANY { work.asks[j] } else { 0xff };
-            let lanes = match edges {
-                Some(edges) => edges.may_hit(i, self.frustum.eight(j)),
+            let lanes = match (edges, &rounds) {
+                (Some(edges), _) => edges.may_hit(i, self.frustum.eight(j)),
+                (_, Some(rounds)) => self.frustum.may_hit(rounds, i, j),
                 // Prepared for nothing: that means nothing but to triangles.
-                None => {
+                _ => {
                     let rays = TestRays { ray: &self.rays[j], triangle: &work.prepared[j] };
                     block.may_hit::<T, RaysByPrimitive>(i, &rays).bits()
                 }
@@ -207,7 +216,12 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
 
     /// Puts so many of the likely pairs to the queries; gives the packets that accepted a hit.
     #[inline(always)]
-    fn ask_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>, count: usize) -> u32 {
+    fn ask_likely<B: Testable>(
+        &mut self,
+        block: &B,
+        (sight, edges): (&Sight, Option<&Edges>),
+        count: usize,
+    ) -> u32 {
         let edges_tell = edges.filter(|_| T::Triangle::GLIMPSES && self.frustum.tells_meetings);
         let mut accepted = 0;
         for k in 0..count {
@@ -217,6 +231,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
                 Some(edges) if edges.large >> pair.row() & 1 != 0 => {
                     self.ask_by_edges((block, pair.row()), edges, j, Mask::from_bits(lanes))
                 }
+                None if T::Curved::SIFTS && !Q::ANY => self.ask_round((block, pair.row()), sight, j, lanes),
                 _ => self.ask((block, pair.row()), j, Mask::from_bits(lanes)),
             };
             accepted |= u32::from(accepts) << j;
@@ -242,6 +257,25 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         let accepts = unclear.any() && self.ask((block, i), j, unclear);
         self.work.waits |= 1 << j;
         self.work.pending[j].take((block, i), certain, &seen, &mut self.queries[j]) | accepts
+    }
+
+    /// The same for a round primitive; lanes as bits. Of a sphere its box tells well enough which lanes have found something
+    /// nearer.
+    #[inline(always)]
+    fn ask_round<B: Testable>(
+        &mut self,
+        (block, i): (&B, usize),
+        sight: &Sight,
+        j: usize,
+        mut lanes: u32,
+    ) -> bool {
+        let Some(Round::Spheres { .. }) = block.round() else {
+            return self.ask((block, i), j, Mask::from_bits(lanes));
+        };
+        lanes &= self.frustum.reaching(sight, i, j, T::above_f32(self.queries[j].limit()));
+        let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
+        lanes != 0
+            && self.work.pending[j].meet((block, i), Mask::from_bits(lanes), &rays, &mut self.queries[j])
     }
 
     /// The same by the primitive test.

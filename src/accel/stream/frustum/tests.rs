@@ -1,3 +1,5 @@
+mod rounds;
+
 use super::plane::Plane;
 use super::{Apex, Frustum, focus};
 use crate::accel::instance::TreeRoot;
