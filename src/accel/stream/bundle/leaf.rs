@@ -104,7 +104,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         T::Triangle::GLIMPSES && if Q::ANY { apex.is_target() } else { apex.is_behind() }
     }
 
-    /// Asks the planes of so many large triangles; notes pairs with lanes of which those tell too little as likely, and gives how
+    /// Asks the planes of large triangles, given as bits; notes pairs with lanes of which those tell too little as likely, and gives how
     /// many, and the packets that found a hit.
     #[inline(always)]
     fn ask_planes<B: Testable>(

@@ -142,11 +142,7 @@ impl Edges {
     /// Lanes of eight rays, by their slopes about the middle, that do not certainly miss triangle `i`, as bits.
     #[inline(always)]
     pub(in super::super) fn may_hit(&self, i: usize, rays: &Eight) -> u32 {
-        let [e0, e1, e2] = self.at(i, &rays.slopes);
-        let least = Lane::min(Lane::min(e0, e1), e2);
-        let greatest = Lane::max(Lane::max(e0, e1), e2);
-        let [below, above] = [0, 1].map(|side: usize| f32x8::splat(self.outside[side].get(i)));
-        (least.lt(below) & greatest.gt(above)).bits() ^ 0xff
+        self.may_and_must_pass(i, rays).0
     }
 
     /// The same, and of those the lanes that certainly pass inside, as far as the triangle test can tell.
