@@ -25,7 +25,7 @@ pub enum Hint {
 const SMALL_TREE: usize = 8;
 
 /// Most packets that go alone before one is tried together again.
-const LONGEST_PAUSE: u32 = 64;
+pub(super) const LONGEST_PAUSE: u32 = 64;
 
 /// Whether going together pays, as those before tell: where it does not, the more seldom it is tried.
 #[derive(Clone, Copy, Debug, Default)]
@@ -55,6 +55,12 @@ impl Pace {
     #[inline(always)]
     pub(super) fn learn(&mut self, saved: i32) {
         self.learn_within(saved, LONGEST_PAUSE);
+    }
+    /// Takes note that the last one paid where the next one may not.
+    #[inline(always)]
+    pub(super) fn trust_more(&mut self) {
+        self.pause /= 2;
+        self.rest = self.pause;
     }
     /// The same, with a longest pause of its own.
     #[inline(always)]
@@ -143,14 +149,14 @@ impl<'a> Traversal<'a> {
         self.accel.nodes.len() <= SMALL_TREE
     }
 
-    /// False if no packet of so many rays would traverse together.
+    /// False if none of so many packets would traverse together.
     #[inline(always)]
-    pub(super) fn may_go_together(&mut self, hint: Hint, rays: usize) -> bool {
+    pub(super) fn may_go_together(&mut self, hint: Hint, packets: usize) -> bool {
         match hint {
             Hint::Coherent => true,
             Hint::Incoherent => false,
             Hint::Auto if self.is_small() => true,
-            Hint::Auto => !self.pace.rests(rays.div_ceil(WIDTH) as u32),
+            Hint::Auto => !self.pace.rests(packets as u32),
         }
     }
 

@@ -6,8 +6,9 @@ use crate::film::PixelSum;
 pub(super) const TILE: u32 = 32;
 /// Pixels that share a packet: a block of this width and height.
 const BLOCK: [u32; 2] = [4, 2];
-/// Pixels that share a bundle.
-const BUNDLE: [u32; 2] = [8, 8];
+/// Pixels that share a bundle, and a small one.
+const BUNDLE: [u32; 2] = [16, 16];
+const SMALL_BUNDLE: [u32; 2] = [8, 8];
 
 /// A rectangle of pixels: left, top, width, height.
 pub(crate) type Rect = [u32; 4];
@@ -18,13 +19,12 @@ pub(crate) fn tiles(rect: Rect) -> Vec<Rect> {
 }
 
 /// The pixels of a tile, bundle by bundle and in it block by block, so that eight neighbours in the list are neighbours in
-/// the picture, and 64 too.
+/// the picture, and 64, and 256 too.
 pub(crate) fn pixels(tile: Rect, list: &mut Vec<[u32; 2]>) {
     list.clear();
-    for bundle in parts(tile, BUNDLE) {
-        for [x, y, width, height] in parts(bundle, BLOCK) {
-            (y..y + height).for_each(|y| list.extend((x..x + width).map(|x| [x, y])));
-        }
+    let small = parts(tile, BUNDLE).flat_map(|bundle| parts(bundle, SMALL_BUNDLE));
+    for [x, y, width, height] in small.flat_map(|bundle| parts(bundle, BLOCK)) {
+        (y..y + height).for_each(|y| list.extend((x..x + width).map(|x| [x, y])));
     }
 }
 

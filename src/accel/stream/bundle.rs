@@ -1,4 +1,4 @@
-//! Up to 64 rays down the tree together: their pyramid against eight children a test.
+//! Up to 256 rays down the tree together: their pyramid against eight children a test.
 //!
 //! Plainly: each packet of eight rays is tested against every primitive that the pyramid of all rays meets. Departures:
 //! - leaves: see [`leaf`];
@@ -7,8 +7,9 @@
 
 mod leaf;
 
-use super::candidates::{Candidate, Candidates, room_for};
+use super::candidates::{Candidates, room_for};
 use super::frustum::{Apex, Frustum};
+use super::{BUNDLE, GROUP, GROUPS, first_packets, no_rays, numbers};
 use crate::accel::Accel;
 use crate::accel::block::RaysByPrimitive;
 use crate::accel::descend::descend;
@@ -20,18 +21,22 @@ use crate::accel::query::Query;
 use crate::accel::{packet, single, unchecked};
 use crate::intersect::{RayLanes, Tier, TriangleTest};
 use crate::math::{Lane, Mask, WIDTH};
+use leaf::Pair;
 
-/// Primitives met by the pyramid up to which a bundle pays: six a ray.
-const PAYS: usize = 6 * WIDTH * WIDTH;
-/// Those after which it is given up: by then it costs less to go on than to begin otherwise, unless there are many more.
-const BUDGET: usize = 8 * WIDTH * WIDTH;
+/// Primitives met by the pyramid, a ray, up to which a bundle pays, and those after which it is given up: by then it costs less
+/// to go on than to begin otherwise, unless there are many more.
+const PAYS: usize = 6;
+const BUDGET: usize = 8;
+/// The same for a large bundle where any hit will do: parts of it often have all they need.
+const LARGE_PAYS_FOR_ANY: usize = 2;
+const LARGE_BUDGET_FOR_ANY: usize = 4;
 /// How many a triangle counts as where any hit will do: rays that go alone seldom need all that a pyramid meets, and are fast
 /// at triangles.
 const TRIANGLE_FOR_ANY: usize = 2;
 
 /// Primitives that an instance counts as for rays that start on surfaces: what is near for a camera's rays is far apart
 /// for those, so a bundle of them goes into most instances for a few rays' sake.
-const SCATTERED: usize = 3 * WIDTH * WIDTH;
+const SCATTERED: usize = 3 * GROUP * WIDTH;
 
 /// How many entries of the stack may come before the last.
 const CHOICE: usize = 3;
@@ -39,34 +44,47 @@ const CHOICE: usize = 3;
 /// What a worker keeps for bundles.
 pub(super) struct Workplace<T: Tier> {
     /// Packets prepared for triangles when first tested, as many meet none; which of them are, as bits.
-    prepared: [ForTriangles<T>; WIDTH],
+    prepared: [ForTriangles<T>; BUNDLE],
     is_prepared: u32,
     /// Packets of which distances may wait, as bits.
     waits: u32,
     /// True if the last triangles met cover more than the pyramid in some direction: then edges tell more than boxes do.
     meets_wide: bool,
     /// Lanes of packets that still ask whether they hit anything, as bits.
-    asks: [u32; WIDTH],
+    asks: [u32; BUNDLE],
     /// Pairs of a primitive of a block and a packet.
-    pairs: Candidates<{ room_for(WIDTH) }>,
+    pairs: Candidates<{ room_for(GROUPS * WIDTH) }>,
     /// Those that may hit, with the lanes that may.
-    likely: [(Candidate, u32); room_for(WIDTH)],
-    pending: [Pending<T>; WIDTH],
+    likely: [(Pair, u32); room_for(GROUPS * WIDTH)],
+    pending: [Pending<T>; BUNDLE],
     /// For bundles inside of instances.
-    inner: Option<Box<(Frustum, Self)>>,
+    inner: Option<Box<Inside<T>>>,
+}
+
+/// A bundle inside of an instance.
+struct Inside<T: Tier> {
+    rays: [RayLanes<T::Wide>; BUNDLE],
+    frustum: Frustum,
+    work: Workplace<T>,
+}
+
+impl<T: Tier> Default for Inside<T> {
+    fn default() -> Self {
+        Self { rays: [no_rays(); BUNDLE], frustum: Frustum::default(), work: Workplace::default() }
+    }
 }
 
 impl<T: Tier> Default for Workplace<T> {
     fn default() -> Self {
         Self {
-            prepared: [T::Triangle::prepare(&super::no_rays()); WIDTH],
+            prepared: [T::Triangle::prepare(&no_rays()); BUNDLE],
             is_prepared: 0,
             waits: 0,
             meets_wide: false,
-            asks: [0; WIDTH],
+            asks: [0; BUNDLE],
             pairs: Candidates::default(),
-            likely: [(Candidate::default(), 0); room_for(WIDTH)],
-            pending: [Pending::default(); WIDTH],
+            likely: [(Pair::default(), 0); room_for(GROUPS * WIDTH)],
+            pending: [Pending::default(); BUNDLE],
             inner: None,
         }
     }
@@ -90,6 +108,7 @@ pub(super) struct Stacks<'a> {
 
 impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
     /// The bundle of some rays; `None` where they do not make one.
+    #[inline(always)]
     pub(super) fn new(
         rays: &'a [RayLanes<T::Wide>],
         apex: Apex,
@@ -107,7 +126,13 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
 
     /// True if its rays had better go together, and its neighbours' rays too.
     pub(super) fn has_paid(&self) -> bool {
-        self.met <= PAYS
+        self.met <= self.per_ray(PAYS, LARGE_PAYS_FOR_ANY)
+    }
+
+    /// So many primitives a ray, or so many in a large bundle where any hit will do.
+    fn per_ray(&self, count: usize, large_for_any: usize) -> usize {
+        let is_large = self.rays.len() > GROUP;
+        self.rays.len() * WIDTH * if is_large && Q::ANY { large_for_any } else { count }
     }
 
     /// Puts everything below `root` to the queries that their rays may hit; false if given up.
@@ -120,7 +145,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
     /// [`Self::descend`] but for the distances that wait.
     #[inline(always)]
     fn visit_all(&mut self, accel: &Accel, root: u32, stacks: &mut Stacks) -> bool {
-        let base = stacks.bundle.len();
+        let (base, budget) = (stacks.bundle.len(), self.per_ray(BUDGET, LARGE_BUDGET_FOR_ANY));
         stacks.bundle.push(single::Entry::new(f32::NEG_INFINITY, ChildRef::node(root)));
         while stacks.bundle.len() > base
             && let Some(entry) = if Q::ANY { stacks.bundle.pop() } else { take_nearest(stacks.bundle, base) }
@@ -136,7 +161,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             } else {
                 with_block(accel, child, self);
             }
-            if self.met > BUDGET {
+            if self.met > budget {
                 stacks.bundle.truncate(base);
                 return false;
             }
@@ -167,22 +192,23 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             self.met += SCATTERED;
         }
         let placed = accel.placed(leaf);
-        let (root, count) = (placed.tree.node, self.rays.len());
-        let local: [RayLanes<T::Wide>; WIDTH] =
-            std::array::from_fn(|j| Accel::local_rays(&placed.to_world, &self.rays[j.min(count - 1)]));
-        let (rays, apex) = (&local[..count], self.frustum.apex().in_space_of(&placed.to_world));
+        let mut inner = self.work.inner.take().unwrap_or_default();
+        let Inside { rays, frustum, work } = &mut *inner;
+        let rays = &mut rays[..self.rays.len()];
+        rays.iter_mut()
+            .zip(self.rays)
+            .for_each(|(local, ray)| *local = Accel::local_rays(&placed.to_world, ray));
+        let apex = self.frustum.apex().in_space_of(&placed.to_world);
         self.queries.iter_mut().for_each(|query| query.enter_instance(placed.row + 1));
         self.settle_all();
-        let mut work = self.work.inner.take().unwrap_or_default();
-        let inside = Bundle::<T, Q>::new(rays, apex, placed.tree, (&mut work.0, &mut work.1), self.queries);
+        let inside = Bundle::<T, Q>::new(rays, apex, placed.tree, (frustum, work), self.queries);
         let done = inside.is_some_and(|mut inside| {
-            let done = inside.descend(accel, root, stacks);
+            let done = inside.descend(accel, placed.tree.node, stacks);
             // Rays that go alone are slower at instances: in there a triangle counts as any primitive.
             self.met += inside.met / if Q::ANY { TRIANGLE_FOR_ANY } else { 1 };
             done
         });
-        self.work.inner = Some(work);
-        for (j, ray) in local[..count].iter().enumerate() {
+        for (j, ray) in rays.iter().enumerate() {
             let query = &mut self.queries[j];
             if !done {
                 let rays = PreparedRays::new(*ray, placed.tree);
@@ -192,17 +218,21 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             query.enter_instance(0);
             self.look(j);
         }
+        self.work.inner = Some(inner);
         self.frustum.update_reach();
     }
 
     /// Finds all distances that wait.
     fn settle_all(&mut self) {
-        let mut left = if Q::ANY { 0 } else { std::mem::take(&mut self.work.waits) };
-        while left != 0 {
-            let j = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
+        for j in numbers(if Q::ANY { 0 } else { std::mem::take(&mut self.work.waits) }) {
             self.work.pending[j].settle(&self.rays[j], &mut self.queries[j]);
         }
+    }
+
+    /// All packets, as bits.
+    #[inline(always)]
+    fn all(&self) -> u32 {
+        first_packets(self.rays.len())
     }
 
     /// Draws in what packet `j` looks for; [`Frustum::update_reach`] must follow.

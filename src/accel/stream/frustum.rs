@@ -1,4 +1,4 @@
-//! The pyramid around rays with a common point: what culls for 64 rays at the price of one.
+//! The pyramid around rays with a common point: what culls for 64 or 256 rays at the price of one.
 //!
 //! Plainly: a ray may hit a box only if the pyramid of all rays meets it. Seen along the axis `z` on which the rays go
 //! farthest, a ray from the apex is `x = a z`, `y = b z` with slopes `a` and `b`; the pyramid is `a0 z <= x <= a1 z`,
@@ -25,6 +25,7 @@ mod view;
 
 use wide::f32x8;
 
+use super::{BUNDLE, GROUPS};
 use crate::accel::node::Node8;
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, Vec3, WIDTH};
@@ -44,7 +45,16 @@ pub(super) struct Sight {
     nearest: f32x8,
 }
 
-/// The pyramid around up to eight packets.
+/// Packets of a bundle, a lane each.
+#[derive(Clone, Copy, Debug)]
+struct Group {
+    slopes: Slopes,
+    all: Slopes,
+    /// How far along `z` each still looks.
+    reach: [f32; WIDTH],
+}
+
+/// The pyramid around the packets of a bundle.
 #[derive(Clone, Debug)]
 pub(super) struct Frustum {
     view: View,
@@ -52,22 +62,22 @@ pub(super) struct Frustum {
     /// Bit `k` set where rays go against axis `k`: the order of visits.
     pub(super) octant: usize,
     all: Slopes,
-    packets: Slopes,
+    groups: [Group; GROUPS],
+    /// Groups that hold packets.
+    count: usize,
     /// In the middle of all, and the slopes above relative to it.
     middle: Middle,
     about_middle: Slopes,
     /// Rays, by packet.
-    rays: [Eight; WIDTH],
+    rays: [Eight; BUNDLE],
     /// Where rays start along `z`, by packet; with an apex to come, 0.
-    start: [f32x8; WIDTH],
+    start: [f32x8; BUNDLE],
     /// True if edges tell enough of where rays meet triangles: what they tell is relative to the apex, so rays have to start there.
     pub(super) tells_meetings: bool,
     /// Length of the directions along `z`, by packet.
-    along: [f32x8; WIDTH],
+    along: [f32x8; BUNDLE],
     /// Where along `z` the first ray starts.
     first: f32x8,
-    /// How far along `z` each packet still looks.
-    packet_reach: [f32; WIDTH],
     /// How far along `z` any packet still looks.
     pub(super) reach: f32,
     side_pad: f32x8,
@@ -82,15 +92,15 @@ impl Default for Frustum {
             apex: Apex::Origin([0.0; 3]),
             octant: 0,
             all: none,
-            packets: none,
+            groups: [Group { slopes: none, all: none, reach: [f32::NEG_INFINITY; WIDTH] }; GROUPS],
+            count: 0,
             middle: Middle::default(),
             about_middle: none,
-            rays: [Eight { slopes: [f32x8::ZERO; 2], per_z: f32x8::ONE }; WIDTH],
+            rays: [Eight { slopes: [f32x8::ZERO; 2], per_z: f32x8::ONE }; BUNDLE],
             tells_meetings: false,
-            start: [f32x8::ZERO; WIDTH],
-            along: [f32x8::ONE; WIDTH],
+            start: [f32x8::ZERO; BUNDLE],
+            along: [f32x8::ONE; BUNDLE],
             first: f32x8::ZERO,
-            packet_reach: [f32::NEG_INFINITY; WIDTH],
             reach: f32::NEG_INFINITY,
             side_pad: f32x8::ZERO,
         }
@@ -111,13 +121,16 @@ impl Frustum {
             true => Lane::select(limit.gt(off), self.along[j], off),
             false => self.start[j] + limit * self.along[j],
         };
-        self.packet_reach[j] = greatest(reach);
+        self.groups[j / WIDTH].reach[j % WIDTH] = greatest(reach);
     }
 
     /// Draws the far end in to what any packet still looks for.
     #[inline(always)]
     pub(super) fn update_reach(&mut self) {
-        self.reach = greatest(f32x8::new(self.packet_reach)) + self.side_pad.get(0);
+        let groups = self.groups[..self.count].iter();
+        let reach = groups
+            .fold(f32x8::splat(f32::NEG_INFINITY), |reach, group| Lane::max(f32x8::new(group.reach), reach));
+        self.reach = greatest(reach) + self.side_pad.get(0);
     }
 
     /// The children that rays may meet, as bits, and where along `z` they start.
@@ -163,9 +176,28 @@ impl Frustum {
     /// Packets that may meet primitive `i`.
     #[inline(always)]
     pub(super) fn packets(&self, sight: &Sight, i: usize) -> u32 {
-        let reach = f32x8::new(self.packet_reach) + self.side_pad;
+        (0..self.count).fold(0, |all, group| all | self.packets_of(group, sight, i) << (group * WIDTH))
+    }
+
+    /// How many groups the packets make.
+    #[inline(always)]
+    pub(super) fn groups(&self) -> usize {
+        self.count
+    }
+
+    /// Of eight primitives that some packets may meet, those that packets of a group may meet.
+    #[inline(always)]
+    pub(super) fn meets_group(&self, group: usize, sight: &Sight) -> u32 {
+        if self.count == 1 { 0xff } else { sight.slopes.overlap(&self.groups[group].all).bits() }
+    }
+
+    /// Packets of a group that may meet primitive `i`.
+    #[inline(always)]
+    pub(super) fn packets_of(&self, group: usize, sight: &Sight, i: usize) -> u32 {
+        let group = &self.groups[group % GROUPS];
+        let reach = f32x8::new(group.reach) + self.side_pad;
         let nearest = f32x8::splat(sight.nearest.get(i));
-        (sight.slopes.splat(i).overlap(&self.packets) & nearest.le(reach)).bits()
+        (sight.slopes.splat(i).overlap(&group.slopes) & nearest.le(reach)).bits()
     }
 
     /// Lanes of packet `j` that look as far as primitive `i`, given their limits.

@@ -1,6 +1,6 @@
 //! Many rays at a time: columns of rays in, columns of hits out, each ray by the way that suits it.
 //!
-//! 1. Rays with a common point, eight packets at a time: `bundle`, behind the pyramid of `frustum`.
+//! 1. Rays with a common point, eight or 32 packets at a time: `bundle`, behind the pyramid of `frustum`.
 //! 2. Packets whose rays visit much the same: together, see [`super::packet`].
 //! 3. All others: one by one, many at a time.
 //!
@@ -29,8 +29,27 @@ use packets::Packets;
 pub use columns::{Bound, HitColumns, RayColumns};
 pub use frustum::Apex;
 
-/// Packets in a bundle.
-const BUNDLE: usize = WIDTH;
+/// Packets in a bundle, at most: as many as a word has bits.
+const BUNDLE: usize = 4 * WIDTH;
+/// Packets in a small one, and in a group of packets, each a lane.
+const GROUP: usize = WIDTH;
+const GROUPS: usize = BUNDLE / GROUP;
+
+/// The first packets of a bundle, as bits.
+#[inline(always)]
+fn first_packets(count: usize) -> u32 {
+    u32::MAX >> (BUNDLE - count)
+}
+
+/// The numbers of packets given as bits.
+#[inline(always)]
+fn numbers(mut packets: u32) -> impl Iterator<Item = usize> {
+    std::iter::from_fn(move || {
+        let first = std::num::NonZero::new(packets)?;
+        packets &= packets - 1;
+        Some(first.trailing_zeros() as usize % BUNDLE)
+    })
+}
 
 /// Rays that ask nothing.
 fn no_rays<L: Lane>() -> RayLanes<L> {

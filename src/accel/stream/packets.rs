@@ -1,18 +1,19 @@
-//! Packets of a stream, up to eight of them at a time: which go as a bundle, which by themselves, and which not as packets.
+//! Packets of a stream: which go as a large or a small bundle, which by themselves, and which not as packets.
 
 use super::answers::Answers;
 use super::bundle::{Bundle, Stacks, Workplace};
 use super::columns::RayColumns;
 use super::flight::Alone;
 use super::frustum::{Apex, Frustum, focus};
-use super::{BUNDLE, no_rays};
+use super::{BUNDLE, GROUP, no_rays};
 use crate::accel::Accel;
 use crate::accel::entry::{Entry, enter};
 use crate::accel::query::Query;
 use crate::accel::region::Region;
-use crate::accel::traversal::{Hint, Pace, Traversal, ask_planes};
+use crate::accel::traversal::{Hint, LONGEST_PAUSE, Pace, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Stored, WIDTH};
+use std::ops::Range;
 
 /// Most bundles that are not tried after one whose rays seem to come from nowhere in common: to see that costs little.
 const GUESS_PAUSE: u32 = 7;
@@ -45,7 +46,7 @@ enum Fate {
 /// Where rays enter the tree, and the region that they stay in if that is known.
 type Entrance = (Entry, Option<Region>);
 
-/// Packets, up to eight of them at a time.
+/// Packets, a bundle at a time.
 pub(super) struct Packets<'a, T: Tier> {
     pub(super) accel: &'a Accel,
     traversal: Traversal<'a>,
@@ -55,6 +56,9 @@ pub(super) struct Packets<'a, T: Tier> {
     /// Where a bundle does not pay, its neighbours hardly would: those whose apex is known, and those whose is guessed.
     pace: Pace,
     guess: Pace,
+    /// The same for large bundles.
+    large: Pace,
+    large_guess: Pace,
     /// The same for short rays, which may enter the tree far from its root.
     entries: Pace,
 }
@@ -69,6 +73,8 @@ impl<'a, T: Tier> Packets<'a, T> {
             work: Box::default(),
             pace: Pace::default(),
             guess: Pace::default(),
+            large: Pace::default(),
+            large_guess: Pace::default(),
             entries: Pace::default(),
         }
     }
@@ -78,47 +84,119 @@ impl<'a, T: Tier> Packets<'a, T> {
         &mut self,
         rays: &RayColumns<S>,
         first: usize,
+        asked: (Option<Apex>, Hint),
+        queries: &mut [A::Query; BUNDLE],
+        answers: &mut A,
+        alone: &mut Alone,
+    ) {
+        let rows = first..rays.len.min(first + BUNDLE * WIDTH);
+        let all = 0..rows.len().div_ceil(WIDTH);
+        let parts = all.clone().step_by(GROUP).map(|j| j..all.end.min(j + GROUP));
+        let is_loaded = self.tries_large(asked, all.len());
+        if is_loaded {
+            parts.clone().for_each(|part| self.load(rays, first, part, BUNDLE * WIDTH, queries));
+            if self.trace_large(asked.0, &mut queries[all.clone()]) {
+                let rows = rows.step_by(WIDTH);
+                return rows.zip(queries).for_each(|(row, query)| answers.store(row, query));
+            }
+        }
+        for part in parts {
+            self.trace_small(rays, (first, part, is_loaded), asked, queries, answers, alone);
+        }
+    }
+
+    /// The same for some of the packets, which may be loaded already.
+    #[inline(always)]
+    fn trace_small<A: Answers<T>, S: Stored<T::Wide>>(
+        &mut self,
+        rays: &RayColumns<S>,
+        (first, packets, is_loaded): (usize, Range<usize>, bool),
         (apex, hint): (Option<Apex>, Hint),
         queries: &mut [A::Query; BUNDLE],
         answers: &mut A,
         alone: &mut Alone,
     ) {
-        let end = rays.len.min(first + BUNDLE * WIDTH);
-        let packets = (first..end).step_by(WIDTH);
-        let tries = self.tries(apex, hint, rays.ends(first));
+        let row = |j: usize| first + j * WIDTH;
+        let tries = self.tries(apex, hint, rays.ends(row(packets.start)));
         // Bundles are not tried where rays were too far apart for one. Alone they would go through instances one by one.
         let apart = hint == Hint::Auto
             && (apex.is_some() && tries.apex.is_none())
             && !(self.traversal.is_small() || self.accel.has_instances());
-        if tries == Tries::default() && !apart && !self.traversal.may_go_together(hint, end - first) {
-            packets.for_each(|at| alone.push(at, None));
-            return;
+        if tries == Tries::default() && !apart && !self.traversal.may_go_together(hint, packets.len()) {
+            return packets.for_each(|j| alone.push(row(j), None));
         }
-        for (j, at) in packets.clone().enumerate() {
-            rays.load_to(at, &mut self.rays[j]);
-            queries[j].begin(self.rays[j].t_max);
-            ask_planes(self.accel, &self.rays[j], &mut queries[j]);
+        if !is_loaded {
+            self.load(rays, first, packets.clone(), GROUP * WIDTH, queries);
         }
-        rays.prefetch(first + BUNDLE * WIDTH, BUNDLE * WIDTH);
-        let queries = &mut queries[..packets.len()];
-        let bundle = if tries.guesses { self.guess_apex(queries.len()) } else { tries.apex };
-        let fate = bundle.map_or(Fate::None, |apex| self.trace_bundle(apex, queries));
+        let bundle = if tries.guesses { self.guess_apex(packets.clone()) } else { tries.apex };
+        let fate = bundle.map_or(Fate::None, |apex| self.trace_bundle(apex, packets.clone(), queries));
         if fate == Fate::Answered {
-            return packets.enumerate().for_each(|(j, at)| answers.store(at, &queries[j]));
+            let rows = (row(packets.start)..row(packets.end)).step_by(WIDTH);
+            return rows.zip(&queries[packets]).for_each(|(row, query)| answers.store(row, query));
         }
         let entry = match if apart { apex } else { bundle.filter(|_| fate == Fate::GivenUp) } {
-            Some(apex) => self.enter_by_apex(apex, fate, queries.len()),
-            None if tries.enters => self.enter_by_region(queries.len()),
+            Some(apex) => self.enter_by_apex(apex, fate, packets.clone()),
+            None if tries.enters => self.enter_by_region(packets.clone()),
             None => None,
         };
         let number = entry.map(|(entry, _)| alone.add_entry(entry.node));
-        for (j, at) in packets.enumerate() {
+        for j in packets {
             if !apart && self.trace_packet(j, hint, entry.as_ref(), &mut queries[j]) {
-                answers.store(at, &queries[j]);
+                answers.store(row(j), &queries[j]);
             } else {
-                alone.push(at, number);
+                alone.push(row(j), number);
             }
         }
+    }
+
+    /// Loads packets, asks for the memory of those that are so many rows ahead, and asks what is not in the tree.
+    #[inline(always)]
+    fn load<Q: Query<T::Wide>, S: Stored<T::Wide>>(
+        &mut self,
+        rays: &RayColumns<S>,
+        first: usize,
+        packets: Range<usize>,
+        ahead: usize,
+        queries: &mut [Q; BUNDLE],
+    ) {
+        rays.prefetch(first + packets.start * WIDTH + ahead, packets.len() * WIDTH);
+        for j in packets {
+            let (packet, query) = (&mut self.rays[j], &mut queries[j]);
+            rays.load_to(first + j * WIDTH, packet);
+            query.begin(packet.t_max);
+            ask_planes(self.accel, packet, query);
+        }
+    }
+
+    /// True if so many packets are to go as one large bundle.
+    #[inline(always)]
+    fn tries_large(&mut self, (apex, hint): (Option<Apex>, Hint), packets: usize) -> bool {
+        packets > GROUP
+            && match apex {
+                Some(_) => self.large.tries(),
+                None => hint != Hint::Incoherent && self.large_guess.tries(),
+            }
+    }
+
+    /// True if all packets are answered, as one bundle.
+    #[inline(never)]
+    fn trace_large<Q: Query<T::Wide>>(&mut self, apex: Option<Apex>, queries: &mut [Q]) -> bool {
+        let rays = &self.rays[..queries.len()];
+        let guess = || focus::<T>(rays, self.accel.world).map(Apex::Behind);
+        let (paid, done) = match apex.or_else(guess) {
+            Some(apex) => self.ask_bundle(apex, 0, queries).unwrap_or_default(),
+            None => (false, false),
+        };
+        let (pace, longest) = match apex {
+            Some(_) => (&mut self.large, LONGEST_PAUSE),
+            None => (&mut self.large_guess, GUESS_PAUSE),
+        };
+        if paid {
+            pace.trust_more()
+        } else {
+            pace.learn_within(-1, longest)
+        }
+        done
     }
 
     /// What is tried with the packets to come, of which the first ray ends or does not.
@@ -146,11 +224,11 @@ impl<'a, T: Tier> Packets<'a, T> {
         together
     }
 
-    /// Where so many packets enter the tree that have an apex in common, if their pyramid spares them anything.
+    /// Where packets enter the tree that have an apex in common, if their pyramid spares them anything.
     #[inline(never)]
-    fn enter_by_apex(&mut self, apex: Apex, fate: Fate, packets: usize) -> Option<Entrance> {
+    fn enter_by_apex(&mut self, apex: Apex, fate: Fate, packets: Range<usize>) -> Option<Entrance> {
         let (world, frustum) = (self.accel.world, &mut *self.frustum);
-        let rays = &self.rays[..packets];
+        let rays = &self.rays[packets];
         if fate == Fate::None {
             frustum.surround::<T>(rays, apex, world)?;
         }
@@ -163,9 +241,9 @@ impl<'a, T: Tier> Packets<'a, T> {
 
     /// The same for rays that all end, and the region that they stay in.
     #[inline(never)]
-    fn enter_by_region(&mut self, packets: usize) -> Option<Entrance> {
+    fn enter_by_region(&mut self, packets: Range<usize>) -> Option<Entrance> {
         let world = self.accel.world;
-        let region = Region::around::<T>(&self.rays[..packets], world);
+        let region = Region::around::<T>(&self.rays[packets], world);
         let entry =
             region.map(|region| (enter(self.accel, world.node, |node| region.children(node)), Some(region)));
         let entry = entry.filter(|(entry, _)| entry.spared >= SPARED);
@@ -173,33 +251,52 @@ impl<'a, T: Tier> Packets<'a, T> {
         entry
     }
 
-    /// The apex behind where the rays of so many packets start, if they seem to have one.
-    fn guess_apex(&mut self, packets: usize) -> Option<Apex> {
-        let point = focus::<T>(&self.rays[..packets], self.accel.world);
+    /// The apex behind where the rays of packets start, if they seem to have one.
+    fn guess_apex(&mut self, packets: Range<usize>) -> Option<Apex> {
+        let point = focus::<T>(&self.rays[packets], self.accel.world);
         if point.is_none() {
             self.guess.learn_within(-1, GUESS_PAUSE);
         }
         point.map(Apex::Behind)
     }
 
-    /// Traces packets as a bundle.
+    /// Traces packets as a small bundle.
     #[inline(never)]
-    fn trace_bundle<Q: Query<T::Wide>>(&mut self, apex: Apex, queries: &mut [Q]) -> Fate {
-        let world = self.accel.world;
-        let rays = &self.rays[..queries.len()];
+    fn trace_bundle<Q: Query<T::Wide>>(
+        &mut self,
+        apex: Apex,
+        packets: Range<usize>,
+        queries: &mut [Q; BUNDLE],
+    ) -> Fate {
+        let asked = self.ask_bundle(apex, packets.start, &mut queries[packets]);
         let pace = if apex.is_behind() { &mut self.guess } else { &mut self.pace };
-        let Some(mut bundle) = Bundle::new(rays, apex, world, (&mut self.frustum, &mut self.work), queries)
-        else {
-            if apex.is_behind() {
-                pace.learn_within(-1, GUESS_PAUSE);
+        match asked {
+            Some((paid, done)) => {
+                pace.learn(if paid { 0 } else { -1 });
+                if done { Fate::Answered } else { Fate::GivenUp }
             }
-            return Fate::None;
-        };
+            None => {
+                if apex.is_behind() {
+                    pace.learn_within(-1, GUESS_PAUSE);
+                }
+                Fate::None
+            }
+        }
+    }
+
+    /// Asks packets from the given one on as a bundle; whether that paid, and whether all are answered.
+    fn ask_bundle<Q: Query<T::Wide>>(
+        &mut self,
+        apex: Apex,
+        first: usize,
+        queries: &mut [Q],
+    ) -> Option<(bool, bool)> {
+        let (world, rays) = (self.accel.world, &self.rays[first..][..queries.len()]);
+        let mut bundle = Bundle::new(rays, apex, world, (&mut self.frustum, &mut self.work), queries)?;
         let mut stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
         let done = bundle.descend(self.accel, world.node, &mut stacks);
-        pace.learn(if bundle.has_paid() { 0 } else { -1 });
-        if done { Fate::Answered } else { Fate::GivenUp }
+        Some((bundle.has_paid(), done))
     }
 }
 
@@ -228,10 +325,10 @@ mod tests {
             *rays = RayLanes::gather(|i| &each[i]);
         }
         let apex = Apex::Target(light);
-        let (fresh, _) = packets.enter_by_apex(apex, Fate::None, BUNDLE).expect("it spares nodes");
-        (0..BUNDLE).for_each(|j| packets.frustum.look(j, f32x8::splat(f32::NEG_INFINITY)));
+        let (fresh, _) = packets.enter_by_apex(apex, Fate::None, 0..GROUP).expect("it spares nodes");
+        (0..GROUP).for_each(|j| packets.frustum.look(j, f32x8::splat(f32::NEG_INFINITY)));
         packets.frustum.update_reach();
-        let given_up = packets.enter_by_apex(apex, Fate::GivenUp, BUNDLE).expect("it spares as many");
+        let given_up = packets.enter_by_apex(apex, Fate::GivenUp, 0..GROUP).expect("it spares as many");
         assert_eq!(given_up.0.node, fresh.node);
     }
 }

@@ -149,8 +149,9 @@ pub(super) fn check_tree<T: Tier>(world: &World, quality: Quality, seed: u64) ->
     let (geometry, dice) = (world.geometry(), &mut Dice(seed));
     let accel = Accel::build_with(&geometry, quality);
     let mut hits = check::<T>(&geometry, &accel, &rays::around(&world.landmarks(), dice, 200), None);
-    for _ in 0..4 {
-        let (rays, apex) = with_apex(&world.landmarks(), dice, 136);
+    // A small bundle, a large one that is not full, one that is.
+    for count in [64, 136, 136, 264] {
+        let (rays, apex) = with_apex(&world.landmarks(), dice, count);
         hits += check::<T>(&geometry, &accel, &rays, Some(apex));
         hits += check::<T>(&geometry, &accel, &rays, None);
         hits += check::<T>(&geometry, &accel, &rays::short(&world.landmarks(), dice, 136), None);
@@ -190,8 +191,8 @@ fn fast_streams_equal_brute_force_but_for_what_culling_loses() {
             (differing, hits) = (differing + d, hits + n);
         };
         sum(&rays::around(&landmarks, dice, 256), None);
-        for _ in 0..2 {
-            let (rays, apex) = with_apex(&landmarks, dice, 128);
+        for count in [64, 192] {
+            let (rays, apex) = with_apex(&landmarks, dice, count);
             sum(&rays, Some(apex));
             sum(&rays, None);
         }

@@ -16,11 +16,8 @@ use crate::accel::{Hint, Traversal};
 use crate::intersect::{PrimId, RayLanes, Watertight};
 use crate::math::{BitLane, Lane, Mask, Vec3, WIDTH};
 use crate::sampling::{cosine_hemisphere, pcg4d, to_frame, unit};
-use crate::wavefront::{HitLanes, evaluate};
+use crate::wavefront::{self, HitLanes, evaluate, tiles};
 
-/// Edge in pixels of the tiles that camera rays are sent in, and the blocks of eight neighbours within one.
-const TILE: u32 = 8;
-const BLOCK: [u32; 2] = [4, 2];
 /// How far secondary rays start off their surface, as a share of the diagonal.
 const OFFSET: f64 = 1e-5;
 /// Length of rays that ask whether anything is near, as a share of the diagonal.
@@ -44,22 +41,19 @@ fn to_f32(v: Vec3<f64>) -> [f32; 3] {
     [v.x as f32, v.y as f32, v.z as f32]
 }
 
-/// Pixels in the order in which they are sent: tiles of 8x8 row by row, in each of them blocks of 4x2.
-fn pixels([width, height]: [u32; 2]) -> Vec<[u32; 2]> {
-    let starts = |length: u32, step: u32| (0..length).step_by(step as usize);
-    let tiles = starts(height, TILE).flat_map(move |y| starts(width, TILE).map(move |x| [x, y]));
-    let blocks = tiles.flat_map(move |[x, y]| {
-        starts(TILE, BLOCK[1]).flat_map(move |dy| starts(TILE, BLOCK[0]).map(move |dx| [x + dx, y + dy]))
-    });
-    let pixels = blocks
-        .flat_map(|[x, y]| (0..BLOCK[1]).flat_map(move |dy| (0..BLOCK[0]).map(move |dx| [x + dx, y + dy])));
-    pixels.filter(|&[x, y]| x < width && y < height).collect()
+/// Pixels in the order in which a render sends them.
+fn pixels([width, height]: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
+    tiles([0, 0, width, height]).into_iter().flat_map(|tile| {
+        let mut list = Vec::new();
+        wavefront::pixels(tile, &mut list);
+        list
+    })
 }
 
 fn primary(subject: &Subject, size @ [width, height]: [u32; 2]) -> RaySet {
     let apex = subject.camera.apex();
     let mut rays = RaySet { apex, ..RaySet::default() };
-    for (i, [x, y]) in pixels(size).into_iter().enumerate() {
+    for (i, [x, y]) in pixels(size).enumerate() {
         let [jx, jy, ..] = numbers(Class::Primary, i);
         let film_x = 2.0 * (f64::from(x) + jx) / f64::from(width) - 1.0;
         let film_y = 1.0 - 2.0 * (f64::from(y) + jy) / f64::from(height);
@@ -169,15 +163,15 @@ mod tests {
     #[test]
     fn pixels_come_once_each_and_in_blocks_of_neighbours() {
         for size in [[16, 16], [9, 3], [1, 1], [64, 8]] {
-            let all = pixels(size);
+            let all: Vec<_> = pixels(size).collect();
             let mut sorted = all.clone();
             sorted.sort_unstable();
             sorted.dedup();
             assert_eq!((all.len(), sorted.len()), ((size[0] * size[1]) as usize, all.len()));
         }
-        assert_eq!(pixels([16, 16])[..8], [[0, 0], [1, 0], [2, 0], [3, 0], [0, 1], [1, 1], [2, 1], [3, 1]]);
-        assert_eq!(pixels([16, 16])[63], [7, 7]);
-        assert_eq!(pixels([16, 16])[64], [8, 0]);
+        let tile: Vec<_> = pixels([32, 32]).collect();
+        assert_eq!(tile[..8], [[0, 0], [1, 0], [2, 0], [3, 0], [0, 1], [1, 1], [2, 1], [3, 1]]);
+        assert_eq!([tile[63], tile[64], tile[255], tile[256]], [[7, 7], [8, 0], [15, 15], [16, 0]]);
     }
 
     #[test]

@@ -15,6 +15,7 @@ use wide::f32x8;
 
 use super::super::candidates::Candidate;
 use super::super::frustum::{Edges, Sight};
+use super::super::{BUNDLE, GROUPS, numbers};
 use super::{Bundle, TRIANGLE_FOR_ANY};
 use crate::accel::block::{RaysByPrimitive, Round};
 use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
@@ -26,6 +27,25 @@ use crate::math::{BitLane, Lane, Mask, WIDTH, three};
 /// Pairs of packets and round primitives from which it pays to look at what the rays have in common: camera rays, and those for
 /// which any hit will do, as their own tests tell more of what is behind.
 const MANY_PAIRS: [usize; 2] = [6, 24];
+
+/// A primitive of a block and a packet.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Pair(Candidate);
+
+impl Pair {
+    #[inline(always)]
+    fn new(primitive: usize, packet: usize) -> Self {
+        Self(Candidate::new(primitive * GROUPS + packet / WIDTH, packet % WIDTH))
+    }
+    #[inline(always)]
+    fn primitive(self) -> usize {
+        self.0.row() / GROUPS % WIDTH
+    }
+    #[inline(always)]
+    fn packet(self) -> usize {
+        self.0.row() % GROUPS * WIDTH + self.0.lane()
+    }
+}
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for Bundle<'_, T, Q> {
     #[inline(always)]
@@ -86,11 +106,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         self.find_pairs(sight, met);
         let count = self.find_likely(block, edges, count);
         accepted |= self.ask_likely(block, (sight, edges), count);
-        let mut left = accepted;
-        while left != 0 {
-            self.look(left.trailing_zeros() as usize & 7);
-            left &= left - 1;
-        }
+        numbers(accepted).for_each(|j| self.look(j));
         if accepted != 0 {
             self.frustum.update_reach();
         }
@@ -111,12 +127,10 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         &mut self,
         block: &B,
         (sight, edges): (&Sight, &Edges),
-        mut large: u32,
+        large: u32,
     ) -> (usize, u32) {
         let (mut count, mut accepted) = (0, 0);
-        while large != 0 {
-            let i = large.trailing_zeros() as usize & 7;
-            large &= large - 1;
+        for i in numbers(large).map(|i| i % WIDTH) {
             let (lanes, likely) = self.find_inside(i, sight, edges);
             if likely != 0 {
                 accepted |= self.ask_plane((block, i), &lanes, likely, &mut count);
@@ -128,12 +142,9 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     /// By packet, the lanes that may pass inside the edges of triangle `i` and those that certainly do; and the packets that have
     /// any.
     #[inline(always)]
-    fn find_inside(&self, i: usize, sight: &Sight, edges: &Edges) -> ([(u32, u32); WIDTH], u32) {
-        let (mut lanes, mut likely) = ([(0, 0); WIDTH], 0);
-        let mut left = self.frustum.packets(sight, i) & ((1 << self.rays.len()) - 1);
-        while left != 0 {
-            let j = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
+    fn find_inside(&self, i: usize, sight: &Sight, edges: &Edges) -> ([(u32, u32); BUNDLE], u32) {
+        let (mut lanes, mut likely) = ([(0, 0); BUNDLE], 0);
+        for j in numbers(self.frustum.packets(sight, i) & self.all()) {
             let asks = if Q::ANY { self.work.asks[j] } else { 0xff };
             let (may, must) = edges.may_and_must_pass(i, self.frustum.eight(j));
             lanes[j] = (may & asks, must & asks);
@@ -147,16 +158,14 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     fn ask_plane<B: Testable>(
         &mut self,
         (block, i): (&B, usize),
-        lanes: &[(u32, u32); WIDTH],
-        mut likely: u32,
+        lanes: &[(u32, u32); BUNDLE],
+        likely: u32,
         count: &mut usize,
     ) -> u32 {
         let Some(corners) = block.corners_of_triangles() else { return 0 };
         let plane = self.frustum.plane(three(|v| three(|k| corners[v][k][i])));
         let mut accepted = 0;
-        while likely != 0 {
-            let j = likely.trailing_zeros() as usize & 7;
-            likely &= likely - 1;
+        for j in numbers(likely) {
             let ((may, must), rays, query) = (lanes[j], &self.rays[j], &mut self.queries[j]);
             let (hits, left) = if Q::ANY {
                 let [hits, misses] = plane.sides(rays, query.limit()).map(|lanes| lanes.bits() & must);
@@ -171,7 +180,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
                 (certain.bits(), may & !must | unclear.bits())
             };
             accepted |= u32::from(hits != 0) << j;
-            self.work.likely[*count] = (Candidate::new(i, j), left);
+            self.work.likely[*count] = (Pair::new(i, j), left);
             *count += usize::from(left != 0);
         }
         accepted
@@ -180,12 +189,13 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     /// Notes the packets that may meet each of the primitives that the pyramid meets.
     #[inline(always)]
     fn find_pairs(&mut self, sight: &Sight, met: u32) {
-        let (mut left, all) = (met, (1 << self.rays.len()) - 1);
+        let all = self.all();
         self.work.pairs.clear();
-        while left != 0 {
-            let i = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
-            self.work.pairs.push(i, self.frustum.packets(sight, i) & all);
+        for group in 0..self.frustum.groups() {
+            let all = all >> (group * WIDTH);
+            for i in numbers(met & self.frustum.meets_group(group, sight)).map(|i| i % WIDTH) {
+                self.work.pairs.push(i * GROUPS + group, self.frustum.packets_of(group, sight, i) & all);
+            }
         }
     }
 
@@ -196,8 +206,8 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         let sifts = T::Curved::SIFTS && work.pairs.len() >= MANY_PAIRS[usize::from(Q::ANY)];
         let rounds = block.round().filter(|_| sifts).map(|round| self.frustum.rounds(round));
         for k in 0..work.pairs.len() {
-            let pair = work.pairs.get(k);
-            let (i, j) = (pair.row(), pair.lane());
+            let pair = Pair(work.pairs.get(k));
+            let (i, j) = (pair.primitive(), pair.packet());
             let asks = if Q::ANY { work.asks[j] } else { 0xff };
             let lanes = match (edges, &rounds) {
                 (Some(edges), _) => edges.may_hit(i, self.frustum.eight(j)),
@@ -226,13 +236,13 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
         let mut accepted = 0;
         for k in 0..count {
             let (pair, lanes) = self.work.likely[k];
-            let j = pair.lane();
+            let (i, j) = (pair.primitive(), pair.packet());
             let accepts = match edges_tell {
-                Some(edges) if edges.large >> pair.row() & 1 != 0 => {
-                    self.ask_by_edges((block, pair.row()), edges, j, Mask::from_bits(lanes))
+                Some(edges) if edges.large >> i & 1 != 0 => {
+                    self.ask_by_edges((block, i), edges, j, Mask::from_bits(lanes))
                 }
-                None if T::Curved::SIFTS && !Q::ANY => self.ask_round((block, pair.row()), sight, j, lanes),
-                _ => self.ask((block, pair.row()), j, Mask::from_bits(lanes)),
+                None if T::Curved::SIFTS && !Q::ANY => self.ask_round((block, i), sight, j, lanes),
+                _ => self.ask((block, i), j, Mask::from_bits(lanes)),
             };
             accepted |= u32::from(accepts) << j;
         }

@@ -22,6 +22,18 @@ impl Slopes {
         let either = |s: [f32x8; 2]| Lane::max(s[0].abs(), s[1].abs());
         Lane::max(either(self.a), either(self.b))
     }
+    /// Those of all lanes, and all between.
+    #[inline(always)]
+    pub(super) fn whole(&self) -> Self {
+        let whole = |s: [f32x8; 2]| [f32x8::splat(least(s[0])), f32x8::splat(greatest(s[1]))];
+        Self { a: whole(self.a), b: whole(self.b) }
+    }
+    /// Those of both, and all between, lane by lane.
+    #[inline(always)]
+    pub(super) fn union(&self, o: &Self) -> Self {
+        let both = |s: [f32x8; 2], o: [f32x8; 2]| [Lane::min(s[0], o[0]), Lane::max(s[1], o[1])];
+        Self { a: both(self.a, o.a), b: both(self.b, o.b) }
+    }
     /// Lanes in which both have slopes in common.
     #[inline(always)]
     pub(super) fn overlap(&self, o: &Self) -> <f32x8 as Lane>::Mask {

@@ -2,12 +2,13 @@
 
 use wide::f32x8;
 
+use super::edges::Eight;
 use super::slopes::{Slopes, filled, greatest, least, range, slopes};
 use super::view::View;
-use super::{Apex, Frustum, asked, narrow};
+use super::{Apex, Frustum, Group, asked, narrow};
 use crate::accel::instance::TreeRoot;
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Lane, Mask, Real, Vec3, WIDTH};
+use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
 
 /// Roundoffs of the largest coordinate by which rays may pass by their apex.
 const APEX_ROUNDOFFS: f64 = 8.0;
@@ -52,7 +53,7 @@ impl Frustum {
     /// Puts the pyramid around packets; `None`, and of no use, where they have no axis in common, go too far apart, are not
     /// as the apex says, or lie so far out that a bound overflows. In place, as it is large.
     ///
-    /// **Needs:** one to eight packets.
+    /// **Needs:** at least one packet, and no more than a bundle holds.
     pub(in super::super) fn surround<T: Tier>(
         &mut self,
         packets: &[RayLanes<T::Wide>],
@@ -79,14 +80,12 @@ impl Frustum {
         if !close {
             return None;
         }
-        self.packet_reach = [f32::NEG_INFINITY; WIDTH];
         self.set_pads::<T>(2.0 * size, counted, if apex == Apex::Parallel { 0.0 } else { astray })
     }
 
     /// Takes note of where rays start and how they go; gives how far any passes by the apex, and the largest coordinate.
     #[inline(always)]
     fn survey<T: Tier>(&mut self, packets: &[RayLanes<T::Wide>], tree: TreeRoot) -> Option<(f32, f32)> {
-        let (mut a, mut b) = ([f32x8::ZERO; WIDTH], [f32x8::ZERO; WIDTH]);
         let (mut astray, mut far) = (f32x8::ZERO, Vec3::zero());
         let mut first = f32x8::splat(f32::INFINITY);
         for (j, rays) in packets.iter().enumerate() {
@@ -94,46 +93,56 @@ impl Frustum {
             if asked & !rays.t_min.ge(T::Wide::zero()).bits() != 0 {
                 return None;
             }
-            let per_z;
-            (a[j], b[j], self.along[j], per_z) =
+            let (mut a, mut b, along, per_z) =
                 slopes(self.view.direction(self.apex.towards::<T>(rays)), asked)?;
             let from = self.view.direction(narrow::<T>(rays.origin) - Vec3::splat(self.view.eye));
-            let (start, by) = self.apex.start::<T>(rays, &self.view, (from, [a[j], b[j]]));
+            let (start, by) = self.apex.start::<T>(rays, &self.view, (from, [a, b]));
             if let Some(across) = self.view.across(from) {
-                [a[j], b[j]] = across.map(|at| filled(at, asked));
+                [a, b] = across.map(|at| filled(at, asked));
             }
             let asked = Mask::from_bits(asked);
-            self.rays[j].per_z = per_z;
+            (self.rays[j], self.along[j]) = (Eight { slopes: [a, b], per_z }, along);
             self.start[j] = Lane::select(asked, start, f32x8::ZERO);
             first = Lane::select(asked, Lane::min(first, start), first);
             astray = Lane::select(asked, Lane::max(astray, by), astray);
             far = Vec3::select(asked, far.max(narrow::<T>(rays.origin).abs()), far);
         }
-        for j in packets.len()..WIDTH {
-            (a[j], b[j]) = (a[0], b[0]);
-        }
         let scale = greatest(tree.scale_for(far).max(far.max_component()));
         let size = self.view.eye.iter().fold(scale, |size, x| size.max(x.abs()));
         self.first = f32x8::splat(least(first));
-        self.set_slopes(Slopes { a: range(a), b: range(b) });
-        let [x, y] = self.middle.slopes;
-        for (rays, (a, b)) in self.rays.iter_mut().zip(a.into_iter().zip(b)) {
-            rays.slopes = [a - x, b - y];
-        }
+        self.set_slopes(packets.len());
         Some((greatest(astray), size))
     }
 
-    /// Takes the slopes of packets, and from them the order of visits.
+    /// Takes the slopes of so many packets, from them the order of visits, and turns them into those about the middle.
     #[inline(always)]
-    fn set_slopes(&mut self, packets: Slopes) {
-        let whole = |s: [f32x8; 2]| [f32x8::splat(least(s[0])), f32x8::splat(greatest(s[1]))];
-        let all = Slopes { a: whole(packets.a), b: whole(packets.b) };
+    fn set_slopes(&mut self, packets: usize) {
+        self.count = packets.div_ceil(WIDTH);
+        for j in packets..self.count * WIDTH {
+            self.rays[j] = self.rays[0];
+        }
+        let groups = &mut self.groups[..self.count];
+        for (group, rays) in groups.iter_mut().zip(self.rays.as_chunks::<WIDTH>().0) {
+            let [a, b] = [0, 1].map(|axis: usize| range(eight(|j| rays[j].slopes[axis])));
+            group.slopes = Slopes { a, b };
+            group.all = group.slopes.whole();
+            group.reach = [f32::NEG_INFINITY; WIDTH];
+        }
+        let (mut all, mut packet_spread) = (groups[0].all, groups[0].slopes.width());
+        for group in &groups[1..] {
+            all = all.union(&group.all);
+            packet_spread = Lane::max(packet_spread, group.slopes.width());
+        }
         let half = f32x8::splat(0.5);
-        let middle = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
-        (self.all, self.packets, self.middle.slopes) = (all, packets, middle);
+        let middle @ [x, y] = [(all.a[0] + all.a[1]) * half, (all.b[0] + all.b[1]) * half];
+        for rays in &mut self.rays[..packets] {
+            let [a, b] = rays.slopes;
+            rays.slopes = [a - x, b - y];
+        }
+        (self.all, self.middle.slopes) = (all, middle);
         self.about_middle = all.about(middle);
         self.middle.spread = self.about_middle.greatest();
-        self.middle.packet_spread = f32x8::splat(greatest(packets.width()));
+        self.middle.packet_spread = f32x8::splat(greatest(packet_spread));
         let [x, y, z] = self.view.axes;
         let slopes = self.view.lean.unwrap_or(middle.map(|slope| slope.get(0)));
         let [against_x, against_y] = slopes.map(|slope| usize::from(slope < 0.0));

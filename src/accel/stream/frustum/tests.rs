@@ -3,6 +3,7 @@ mod rounds;
 use super::plane::Plane;
 use super::{Apex, Frustum, focus};
 use crate::accel::instance::TreeRoot;
+use crate::accel::stream::{BUNDLE, GROUP};
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::{Exact, Ray, RayLanes, Tier, TriangleTest, Watertight};
 use crate::math::{Aabb, Lane, Mask, Vec3, WIDTH, three};
@@ -16,7 +17,8 @@ fn offset(at: [f64; 3], by: f64, dice: &mut Dice) -> [f64; 3] {
     three(|k| at[k] + by * p[k])
 }
 
-/// Sixty-four rays from an apex past a point, and the apex; as a mirror would throw them back, they start on the way.
+/// As many rays as a small or a large bundle has from an apex past a point, and the apex; as a mirror would throw them back,
+/// they start on the way.
 fn beam(dice: &mut Dice) -> (Vec<Ray>, Apex) {
     let (apex, middle) = (dice.point().map(|x| 3.0 * x), dice.point());
     let (kind, spread) = (dice.below(4), dice.between(0.01, 0.3));
@@ -38,7 +40,8 @@ fn beam(dice: &mut Dice) -> (Vec<Ray>, Apex) {
         }
         ray
     };
-    let rays = (0..WIDTH * WIDTH).map(|_| ray(dice)).collect();
+    let packets = if dice.below(4) == 0 { BUNDLE } else { GROUP };
+    let rays = (0..packets * WIDTH).map(|_| ray(dice)).collect();
     let apex = narrow(apex);
     (rays, [Apex::Origin(apex), Apex::Target(apex), Apex::Behind(apex), Apex::Parallel][kind])
 }
@@ -67,7 +70,7 @@ fn meets(ray: &Ray, [lo, hi]: &Extent) -> bool {
 
 fn packets(rays: &[Ray]) -> Vec<RayLanes<f32x8>> {
     let one: Vec<RayLanes<f32>> = rays.iter().map(RayLanes::from).collect();
-    (0..WIDTH).map(|j| RayLanes::gather(|i| &one[WIDTH * j + i])).collect()
+    one.chunks(WIDTH).map(|packet| RayLanes::gather(|i| &packet[i])).collect()
 }
 
 /// The frustum of a beam, by its apex or by the one that is found for it.
@@ -76,18 +79,20 @@ fn around(rays: &[Ray], apex: Apex, finds: bool, scale: f32) -> Option<Frustum> 
     let (packets, mut frustum) = (packets(rays), Frustum::default());
     let apex = if finds { Apex::Behind(focus::<Watertight>(&packets, world)?) } else { apex };
     frustum.surround::<Watertight>(&packets, apex, world)?;
-    (0..WIDTH).for_each(|j| frustum.look(j, packets[j].t_max));
+    packets.iter().enumerate().for_each(|(j, packet)| frustum.look(j, packet.t_max));
     frustum.update_reach();
     Some(frustum)
 }
 
-/// What a frustum says of eight boxes: that rays may meet them, and which packets may meet each.
-fn answers(frustum: &Frustum, extents: &[Extent; WIDTH]) -> (u32, [u32; WIDTH]) {
+/// What a frustum says of eight boxes: that rays may meet them, which packets may meet each, and which of them each group
+/// may meet.
+fn answers(frustum: &Frustum, extents: &[Extent; WIDTH]) -> (u32, [u32; WIDTH], Vec<u32>) {
     let column = |side: usize, k: usize| f32x8::from_fn(|i| extents[i][side][k]);
     let boxes = frustum.view().boxes(|k| column(0, k), |k| column(1, k));
     let sight = frustum.sight(&boxes);
     let seen = frustum.sees(&sight) & frustum.meets(&frustum.all, &boxes, f32x8::splat(frustum.reach));
-    (seen, std::array::from_fn(|i| frustum.packets(&sight, i)))
+    let groups = (0..frustum.groups()).map(|group| frustum.meets_group(group, &sight));
+    (seen, std::array::from_fn(|i| frustum.packets(&sight, i)), groups.collect())
 }
 
 #[test]
@@ -102,12 +107,14 @@ fn what_a_ray_meets_is_not_culled_and_most_of_the_rest_is() {
         beams += 1;
         parallel += usize::from(apex == Apex::Parallel);
         let extents: [Extent; WIDTH] = std::array::from_fn(|_| on_the_way(&rays, dice));
-        let (seen, packets) = answers(&frustum, &extents);
+        let (seen, packets, groups) = answers(&frustum, &extents);
         for (i, extent) in extents.iter().enumerate() {
             let meets: Vec<usize> = (0..rays.len()).filter(|&r| meets(&rays[r], extent)).collect();
             for &r in &meets {
                 assert!(seen >> i & 1 != 0, "{:?} {extent:?} {apex:?}", rays[r]);
                 assert!(packets[i] >> (r / WIDTH) & 1 != 0, "{:?} {extent:?} {apex:?}", rays[r]);
+                let group = r / WIDTH / GROUP;
+                assert!(groups[group] >> i & 1 != 0, "{:?} {extent:?} {apex:?}", rays[r]);
             }
             match meets.is_empty() {
                 true => (missed, kept) = (missed + 1, kept + (seen >> i & 1)),
@@ -353,7 +360,7 @@ fn the_image_behind_a_mirror_is_found() {
         let d: [f64; 3] = three(|k| at[k] - camera[k]);
         Ray::new(at.map(|x| x as f32), [d[0] as f32, d[1] as f32, -d[2] as f32])
     };
-    let rays: Vec<Ray> = (0..WIDTH * WIDTH).map(|_| ray(dice)).collect();
+    let rays: Vec<Ray> = (0..GROUP * WIDTH).map(|_| ray(dice)).collect();
     let world = TreeRoot::new(0, &Aabb { min: [-4.0; 3], max: [4.0; 3] });
     let image = focus::<Watertight>(&packets(&rays), world);
     let expected = Vec3::new(0.3, 0.2, 2.0 * mirror as f32 - 2.0);
