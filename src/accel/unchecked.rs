@@ -98,20 +98,42 @@ pub(super) fn reserve<T>(to: &mut Vec<T>, more: usize) {
     }
 }
 
-/// Asks for the memory of rows of a column from `at` on, there or not.
-#[inline(always)]
-pub(super) fn prefetch_rows<R>(column: &[R], at: usize, rows: usize) {
-    #[cfg(target_arch = "x86_64")]
-    {
-        use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
-        let first = column.as_ptr().wrapping_add(at).cast::<i8>();
-        for line in (0..rows * size_of::<R>()).step_by(64) {
-            // SAFETY: as above.
-            unsafe { _mm_prefetch::<_MM_HINT_T0>(first.wrapping_add(line)) };
-        }
+/// Rows of up to eight columns whose memory is asked for a bit at a time: asked for all at once, it would be waited for.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Ahead {
+    addresses: [usize; 8],
+    columns: usize,
+    /// Bytes of each column that are still to be asked for.
+    bytes: usize,
+}
+
+impl Ahead {
+    /// No rows yet of columns to come.
+    pub(super) fn of_rows<R>(rows: usize) -> Self {
+        Self { bytes: rows * size_of::<R>(), ..Self::default() }
     }
-    #[cfg(not(target_arch = "x86_64"))]
-    let _ = (column, at, rows);
+    /// Adds a column, from row `at` on, there or not.
+    #[inline(always)]
+    pub(super) fn add<R>(&mut self, column: &[R], at: usize) {
+        self.addresses[self.columns % 8] = column.as_ptr().wrapping_add(at).addr();
+        self.columns += 1;
+    }
+    /// Asks for a cache line of each column; false if nothing is left to ask for.
+    #[inline(always)]
+    pub(super) fn step(&mut self) -> bool {
+        if self.bytes == 0 {
+            return false;
+        }
+        #[cfg(target_arch = "x86_64")]
+        for address in self.addresses.iter_mut().take(self.columns) {
+            use std::arch::x86_64::{_MM_HINT_T0, _mm_prefetch};
+            // SAFETY: as above.
+            unsafe { _mm_prefetch::<_MM_HINT_T0>(std::ptr::without_provenance(*address)) };
+            *address = address.wrapping_add(64);
+        }
+        self.bytes = self.bytes.saturating_sub(64);
+        true
+    }
 }
 
 /// Stacks of many rays, one after the other: references and where the ray enters them, the next to visit last.

@@ -18,7 +18,8 @@ use crate::accel::leaf::{ForTriangles, PreparedRays, with_block};
 use crate::accel::node::ChildRef;
 use crate::accel::pending::Pending;
 use crate::accel::query::Query;
-use crate::accel::{packet, single, unchecked};
+use crate::accel::unchecked::{self, Ahead};
+use crate::accel::{packet, single};
 use crate::intersect::{RayLanes, Tier, TriangleTest};
 use crate::math::{Lane, Mask, WIDTH};
 use leaf::Pair;
@@ -48,6 +49,8 @@ pub(super) struct Workplace<T: Tier> {
     is_prepared: u32,
     /// Packets of which distances may wait, as bits.
     waits: u32,
+    /// What is read next.
+    pub(super) ahead: Ahead,
     /// True if the last triangles met cover more than the pyramid in some direction: then edges tell more than boxes do.
     meets_wide: bool,
     /// Lanes of packets that still ask whether they hit anything, as bits.
@@ -80,6 +83,7 @@ impl<T: Tier> Default for Workplace<T> {
             prepared: [T::Triangle::prepare(&no_rays()); BUNDLE],
             is_prepared: 0,
             waits: 0,
+            ahead: Ahead::default(),
             meets_wide: false,
             asks: [0; BUNDLE],
             pairs: Candidates::default(),
@@ -138,6 +142,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
     /// Puts everything below `root` to the queries that their rays may hit; false if given up.
     pub(super) fn descend(&mut self, accel: &Accel, root: u32, stacks: &mut Stacks) -> bool {
         let done = self.visit_all(accel, root, stacks);
+        while self.work.ahead.step() {}
         self.settle_all();
         done
     }
@@ -161,6 +166,7 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
             } else {
                 with_block(accel, child, self);
             }
+            self.work.ahead.step();
             if self.met > budget {
                 stacks.bundle.truncate(base);
                 return false;

@@ -1,7 +1,7 @@
 //! Rays and hits as columns: what streams of rays are asked from and answered to.
 
 use crate::accel::query::Closest;
-use crate::accel::unchecked::prefetch_rows;
+use crate::accel::unchecked::Ahead;
 use crate::intersect::RayLanes;
 use crate::math::{BitLane, Lane, Mask, Real, Stored, Vec3, WIDTH};
 
@@ -83,18 +83,20 @@ impl<R: Real> RayColumns<'_, R> {
         t_max.to_f32() < f32::MAX
     }
 
-    /// Asks for the memory of so many rays from row `at` on, which may be beyond the end.
+    /// The memory of so many rays from row `at` on, which may be beyond the end.
     #[inline(always)]
-    pub(super) fn prefetch(&self, at: usize, rows: usize) {
-        self.origin.iter().chain(&self.direction).for_each(|column| prefetch_rows(column, at, rows));
+    pub(super) fn ahead(&self, at: usize, rows: usize) -> Ahead {
+        let mut ahead = Ahead::of_rows::<R>(rows);
+        self.origin.iter().chain(&self.direction).for_each(|column| ahead.add(column, at));
         for bound in [&self.t_min, &self.t_max] {
             if let Bound::Each(column) = bound {
-                prefetch_rows(column, at, rows);
+                ahead.add(column, at);
             }
         }
+        ahead
     }
 
-    /// The same to where they are kept: built elsewhere and copied in wider pieces, they wait for the stores to be done.
+    /// Eight rays from row `at` on to where they are kept: built elsewhere and copied in wider pieces, they wait for the stores to be done.
     #[inline(always)]
     pub(super) fn load_to<L: Lane>(&self, at: usize, rays: &mut RayLanes<L>)
     where

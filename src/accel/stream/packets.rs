@@ -94,7 +94,7 @@ impl<'a, T: Tier> Packets<'a, T> {
         let parts = all.clone().step_by(GROUP).map(|j| j..all.end.min(j + GROUP));
         let is_loaded = self.tries_large(asked, all.len());
         if is_loaded {
-            parts.clone().for_each(|part| self.load(rays, first, part, BUNDLE * WIDTH, queries));
+            self.load(rays, first, all.clone(), queries);
             if self.trace_large(asked.0, &mut queries[all.clone()]) {
                 let rows = rows.step_by(WIDTH);
                 return rows.zip(queries).for_each(|(row, query)| answers.store(row, query));
@@ -126,7 +126,7 @@ impl<'a, T: Tier> Packets<'a, T> {
             return packets.for_each(|j| alone.push(row(j), None));
         }
         if !is_loaded {
-            self.load(rays, first, packets.clone(), GROUP * WIDTH, queries);
+            self.load(rays, first, packets.clone(), queries);
         }
         let bundle = if tries.guesses { self.guess_apex(packets.clone()) } else { tries.apex };
         let fate = bundle.map_or(Fate::None, |apex| self.trace_bundle(apex, packets.clone(), queries));
@@ -149,17 +149,17 @@ impl<'a, T: Tier> Packets<'a, T> {
         }
     }
 
-    /// Loads packets, asks for the memory of those that are so many rows ahead, and asks what is not in the tree.
+    /// Loads packets and asks what is not in the tree.
     #[inline(always)]
     fn load<Q: Query<T::Wide>, S: Stored<T::Wide>>(
         &mut self,
         rays: &RayColumns<S>,
         first: usize,
         packets: Range<usize>,
-        ahead: usize,
         queries: &mut [Q; BUNDLE],
     ) {
-        rays.prefetch(first + packets.start * WIDTH + ahead, packets.len() * WIDTH);
+        let rows = packets.len() * WIDTH;
+        self.work.ahead = rays.ahead(first + packets.start * WIDTH + rows, rows);
         for j in packets {
             let (packet, query) = (&mut self.rays[j], &mut queries[j]);
             rays.load_to(first + j * WIDTH, packet);
