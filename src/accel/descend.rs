@@ -101,8 +101,19 @@ impl Costs {
     /// Starting eight rays, each alone.
     const START: i32 = 130;
 
-    fn of(octant: Octant, any: bool) -> Self {
-        Self { node: if octant.shared { 21 } else { 45 }, leaf: if any { 70 } else { 150 } }
+    /// What packets wait for more, rays alone having others to go on with, where a tree lies in memory rather than in caches.
+    const FAR_NODE: i32 = 20;
+    const FAR_LEAF: i32 = 60;
+    /// Blocks of triangles, 320 bytes each, from which a tree does.
+    const FAR_BLOCKS: usize = 50_000;
+
+    fn of(accel: &Accel, octant: Octant, any: bool) -> Self {
+        let node = if octant.shared { 21 } else { 45 };
+        let leaf = if any { 70 } else { 150 };
+        match accel.triangles.len() < Self::FAR_BLOCKS {
+            true => Self { node, leaf },
+            false => Self { node: node + Self::FAR_NODE, leaf: leaf + Self::FAR_LEAF },
+        }
     }
     /// What so many rays save by visiting together.
     #[inline(always)]
@@ -133,7 +144,7 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
     let region = entry.map_or_else(|| D::region::<T>(&rays.ray, tree), |(_, region)| region);
     let heading = Heading { octant: Octant::of(&rays.cull), region };
     let mut kept = D::Kept::<T>::default();
-    let (costs, mut saved) = (Costs::of(heading.octant, Q::ANY), Costs::START);
+    let (costs, mut saved) = (Costs::of(accel, heading.octant, Q::ANY), Costs::START);
     match entry {
         Some((node, _)) => {
             let range = (t_min, T::above_f32(query.limit()));
