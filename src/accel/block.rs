@@ -1,7 +1,9 @@
 //! Leaves: up to eight primitives of a kind, stored so that a test loads them as lanes.
 
+mod gather;
 mod walk;
 
+pub use gather::Picks;
 pub use walk::{PrimitivesByRay, RaysByPrimitive, Walk};
 
 use crate::geometry::Geometry;
@@ -72,30 +74,6 @@ impl TriangleBlock {
     pub fn stands_as(&self, o: &Self) -> bool {
         let bits = |block: &Self| block.corner.map(|c| c.map(|axis| axis.map(f32::to_bits)));
         bits(self) == bits(o)
-    }
-    /// Corners of eight triangles from eight blocks: number `lanes[i]` of block `i` in lane `i`.
-    #[inline(always)]
-    pub fn gather<L: Lane>(blocks: &[&Self; WIDTH], lanes: &[usize; WIDTH]) -> [Vec3<L>; 3] {
-        three(|v| Vec3 {
-            x: Self::gather_column(blocks, lanes, (v, 0)),
-            y: Self::gather_column(blocks, lanes, (v, 1)),
-            z: Self::gather_column(blocks, lanes, (v, 2)),
-        })
-    }
-    #[inline(always)]
-    fn gather_column<L: Lane>(
-        blocks: &[&Self; WIDTH],
-        lanes: &[usize; WIDTH],
-        (v, axis): (usize, usize),
-    ) -> L {
-        // Each lane from a column loaded whole: eight loads of a number each become a gather, which is slow on many CPUs.
-        let column =
-            |i: usize| f32x8::new(blocks[i].corner[v][axis]).shuffle_wrapping(u32x8::splat(lanes[i] as u32));
-        let mut gathered = column(0);
-        for i in 1..WIDTH {
-            gathered = Lane::select(Mask::from_bits(1 << i), column(i), gathered);
-        }
-        L::load_f32(&gathered.to_array())
     }
     /// Corners, axes and triangles.
     #[inline(always)]

@@ -4,13 +4,14 @@ use wide::f32x8;
 
 use super::Accel;
 use super::block::{
-    Block, CylinderBlock, PrimitivesByRay, RaysByPrimitive, SphereBlock, TriangleBlock, Walk,
+    Block, CylinderBlock, Picks, PrimitivesByRay, RaysByPrimitive, SphereBlock, TriangleBlock, Walk,
 };
 use super::instance::TreeRoot;
 use super::node::ChildRef;
 use super::pending::Pending;
 use super::query::Query;
 use super::region::Region;
+use super::unchecked;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::triangle::Glimpse;
 use crate::intersect::{Curved, LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
@@ -18,6 +19,8 @@ use crate::math::{Lane, Mask, Vec3, WIDTH};
 
 /// What the triangle test of a tier prepares once a ray.
 pub(super) type ForTriangles<T> = <<T as Tier>::Triangle as TriangleTest>::Prepared<<T as Tier>::Wide>;
+/// The same for a ray that goes alone.
+pub(super) type OneForTriangles<T> = <<T as Tier>::Triangle as TriangleTest>::OneRay<<T as Tier>::Real>;
 
 /// Rays with all that the primitive tests of a tier prepare once a ray.
 #[derive(Clone, Copy)]
@@ -71,7 +74,7 @@ pub(super) fn cull_rays_by<T: Tier>(
 pub(super) type Lanes<T> = <<T as Tier>::Wide as Lane>::Mask;
 
 /// A block that rays of a tier can be tested against.
-pub(super) trait Testable: Block {
+pub(super) trait Testable: Block + Sized {
     /// Lanes whose rays may hit the primitives at a step of the walk, as far as is cheap to tell.
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T>;
 
@@ -90,8 +93,19 @@ pub(super) trait Testable: Block {
         limit: T::Wide,
     ) -> LaneHit<T::Wide>;
 
-    /// The same for one ray and primitive `i`.
-    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real>;
+    /// The block that a reference leads to.
+    fn of(accel: &Accel, leaf: ChildRef) -> &Self;
+
+    /// Primitives that one ray may hit, as bits.
+    fn candidates<T: Tier>(&self, ray: &RayLanes<T::Real>, triangle: &OneForTriangles<T>) -> u32;
+
+    /// Meets those lanes with such primitives, each of a block of its own.
+    fn hit_candidates<T: Tier>(
+        picks: &Picks<Self>,
+        lanes: Lanes<T>,
+        rays: &RayLanes<T::Wide>,
+        limit: T::Wide,
+    ) -> LaneHit<T::Wide>;
 
     /// Of the lanes that may hit, those that do not certainly go away, as far as is cheap to tell beside meeting them.
     #[inline(always)]
@@ -155,8 +169,23 @@ impl Testable for TriangleBlock {
     }
 
     #[inline(always)]
-    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real> {
-        T::Triangle::test(ray, &T::Triangle::prepare(ray), self.corners::<RaysByPrimitive, _>(i), limit)
+    fn of(accel: &Accel, leaf: ChildRef) -> &Self {
+        unchecked::triangles(accel, leaf)
+    }
+
+    #[inline(always)]
+    fn candidates<T: Tier>(&self, ray: &RayLanes<T::Real>, triangle: &OneForTriangles<T>) -> u32 {
+        T::Triangle::candidates::<T::Wide>(ray, triangle, self.corner_columns())
+    }
+
+    #[inline(always)]
+    fn hit_candidates<T: Tier>(
+        picks: &Picks<Self>,
+        _: Lanes<T>,
+        rays: &RayLanes<T::Wide>,
+        limit: T::Wide,
+    ) -> LaneHit<T::Wide> {
+        T::Triangle::test_candidates(rays, Self::gather(picks), limit)
     }
 
     #[inline(always)]
@@ -186,8 +215,26 @@ macro_rules! curved {
             }
 
             #[inline(always)]
-            fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, _: T::Real) -> LaneHit<T::Real> {
-                T::Curved::$hit(true, ray, &self.$primitives::<RaysByPrimitive, _>(i))
+            fn of(accel: &Accel, leaf: ChildRef) -> &Self {
+                &accel.$primitives[leaf.index() as usize]
+            }
+
+            #[inline(always)]
+            fn candidates<T: Tier>(&self, ray: &RayLanes<T::Real>, _: &OneForTriangles<T>) -> u32 {
+                let (ray, primitives) =
+                    (RayLanes::<T::Wide>::splat(ray), self.$primitives::<PrimitivesByRay, _>(0));
+                let lanes = T::Curved::$may_hit(&ray, &primitives) & self.there::<T>();
+                if lanes.any() { T::Curved::$ahead(lanes, &ray, &primitives).bits() } else { 0 }
+            }
+
+            #[inline(always)]
+            fn hit_candidates<T: Tier>(
+                picks: &Picks<Self>,
+                lanes: Lanes<T>,
+                rays: &RayLanes<T::Wide>,
+                _: T::Wide,
+            ) -> LaneHit<T::Wide> {
+                T::Curved::$hit(lanes, rays, &Self::gather(picks))
             }
 
             #[inline(always)]

@@ -73,19 +73,24 @@ pub trait TriangleTest: Copy + Send + Sync + 'static {
     fn test_candidates<L: Lane>(ray: &RayLanes<L>, vertices: [Vec3<L>; 3], limit: L) -> LaneHit<L>;
 }
 
-/// How spheres and cylinders are decided.
+/// How spheres and cylinders are decided: what certainly misses is sorted out without a quotient or a root, in the number type of
+/// the lanes.
 pub trait Curved: Copy + Send + Sync + 'static {
-    /// True if meeting them costs more than telling which rays may.
-    const SIFTS: bool;
-    /// Lanes whose rays may hit their spheres, as far as is cheap to tell.
-    fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> L::Mask;
-    /// Meets those lanes with their spheres.
+    /// Meets those lanes, which may hit, with their spheres.
     fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> LaneHit<L>;
+    /// Meets those lanes, which may hit, with their cylinders.
+    fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
+
+    /// Lanes whose rays may hit their spheres, as far as is cheap to tell.
+    #[inline(always)]
+    fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> L::Mask {
+        sphere::may_hit(ray, s)
+    }
     /// Of those lanes, the ones that may hit before `limit`, if it costs little beside meeting them to tell: not where no ray
     /// has found anything yet.
     #[inline(always)]
-    fn sphere_within<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
-        lanes
+    fn sphere_within<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
+        if limit.lt(ray.t_max).any() { lanes & !sphere::is_beyond(ray, s, limit) } else { lanes }
     }
     /// Of those lanes, the ones that do not certainly go away from their spheres.
     #[inline(always)]
@@ -94,33 +99,34 @@ pub trait Curved: Copy + Send + Sync + 'static {
     }
     /// Of those lanes, the ones that certainly hit before `limit`, if it costs little beside meeting them to tell.
     #[inline(always)]
-    fn sphere_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
-        L::Mask::splat(false)
+    fn sphere_surely<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
+        lanes & sphere::surely_hits(ray, s, limit)
     }
     /// Lanes whose rays may hit their cylinders, as far as is cheap to tell.
-    fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> L::Mask;
+    #[inline(always)]
+    fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
+        cylinder::may_hit(ray, c)
+    }
     /// As [`Curved::sphere_within`].
     #[inline(always)]
     fn cylinder_within<L: Lane>(
         lanes: L::Mask,
-        _: &RayLanes<L>,
-        _: &cylinder::Lanes<L>,
-        _limit: L,
+        ray: &RayLanes<L>,
+        c: &cylinder::Lanes<L>,
+        limit: L,
     ) -> L::Mask {
-        lanes
+        if limit.lt(ray.t_max).any() { lanes & !cylinder::is_beyond(ray, c, limit) } else { lanes }
+    }
+    /// Of those lanes, the ones that do not certainly go away from their cylinders.
+    #[inline(always)]
+    fn cylinder_ahead<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
+        lanes & !cylinder::is_behind(ray, c)
     }
     /// As [`Curved::sphere_surely`].
     #[inline(always)]
     fn cylinder_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>, _limit: L) -> L::Mask {
         L::Mask::splat(false)
     }
-    /// Of those lanes, the ones that do not certainly go away from their cylinders.
-    #[inline(always)]
-    fn cylinder_ahead<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>) -> L::Mask {
-        lanes
-    }
-    /// Meets those lanes with their cylinders.
-    fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
 
     /// Meets rays with spheres: the two of above.
     #[inline(always)]
@@ -140,64 +146,27 @@ pub trait Curved: Copy + Send + Sync + 'static {
 #[derive(Clone, Copy, Debug, Default)]
 pub struct Direct;
 
-/// Sorts out what certainly misses without a quotient or a root, in the number type of the lanes, and solves the rest in `f64`.
+/// Solves in `f64`.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Filtered;
+pub struct Widened;
 
 impl Curved for Direct {
-    const SIFTS: bool = false;
     #[inline(always)]
-    fn may_hit_sphere<L: Lane>(_: &RayLanes<L>, _: &sphere::Lanes<L>) -> L::Mask {
-        L::Mask::splat(true)
+    fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
+        let hit = sphere::solve(ray, s);
+        LaneHit { mask: hit.mask & lanes, ..hit }
     }
     #[inline(always)]
-    fn hit_sphere<L: Lane>(_: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
-        sphere::solve(ray, s)
-    }
-    #[inline(always)]
-    fn may_hit_cylinder<L: Lane>(_: &RayLanes<L>, _: &cylinder::Lanes<L>) -> L::Mask {
-        L::Mask::splat(true)
-    }
-    #[inline(always)]
-    fn hit_cylinder<L: Lane>(_: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
-        cylinder::solve(ray, c)
+    fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
+        let hit = cylinder::solve(ray, c);
+        LaneHit { mask: hit.mask & lanes, ..hit }
     }
 }
 
-impl Curved for Filtered {
-    const SIFTS: bool = true;
-    #[inline(always)]
-    fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> L::Mask {
-        sphere::may_hit(ray, s)
-    }
-    #[inline(always)]
-    fn sphere_within<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
-        if limit.lt(ray.t_max).any() { lanes & !sphere::is_beyond(ray, s, limit) } else { lanes }
-    }
-    #[inline(always)]
-    fn sphere_surely<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
-        lanes & sphere::surely_hits(ray, s, limit)
-    }
+impl Curved for Widened {
     #[inline(always)]
     fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
         sphere::solve_widened(lanes, ray, s)
-    }
-    #[inline(always)]
-    fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
-        cylinder::may_hit(ray, c)
-    }
-    #[inline(always)]
-    fn cylinder_within<L: Lane>(
-        lanes: L::Mask,
-        ray: &RayLanes<L>,
-        c: &cylinder::Lanes<L>,
-        limit: L,
-    ) -> L::Mask {
-        if limit.lt(ray.t_max).any() { lanes & !cylinder::is_beyond(ray, c, limit) } else { lanes }
-    }
-    #[inline(always)]
-    fn cylinder_ahead<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
-        lanes & !cylinder::is_behind(ray, c)
     }
     #[inline(always)]
     fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
@@ -268,8 +237,8 @@ macro_rules! tier {
     };
 }
 tier!(Fast, f32, f32x8, FilteredVolumes, Direct, as_is, as_is, as_is);
-tier!(Watertight, f32, f32x8, Woop, Filtered, as_is, as_is, as_is);
-tier!(Exact, f64, f64x8, ExactVolumes, Filtered, f32x8::narrow, above, below);
+tier!(Watertight, f32, f32x8, Woop, Widened, as_is, as_is, as_is);
+tier!(Exact, f64, f64x8, ExactVolumes, Widened, f32x8::narrow, above, below);
 
 #[inline(always)]
 fn as_is(x: f32x8) -> f32x8 {

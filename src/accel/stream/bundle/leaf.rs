@@ -193,7 +193,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     #[inline(always)]
     fn find_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>, mut count: usize) -> usize {
         let work = &mut *self.work;
-        let sifts = T::Curved::SIFTS && work.pairs.len() >= MANY_PAIRS[usize::from(Q::ANY)];
+        let sifts = work.pairs.len() >= MANY_PAIRS[usize::from(Q::ANY)];
         let rounds = block.round().filter(|_| sifts).map(|round| self.frustum.rounds(round));
         for k in 0..work.pairs.len() {
             let pair = work.pairs.get(k);
@@ -231,7 +231,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
                 Some(edges) if edges.large >> pair.row() & 1 != 0 => {
                     self.ask_by_edges((block, pair.row()), edges, j, Mask::from_bits(lanes))
                 }
-                None if T::Curved::SIFTS && !Q::ANY => self.ask_round((block, pair.row()), sight, j, lanes),
+                None if !Q::ANY => self.ask_round((block, pair.row()), sight, j, lanes),
                 _ => self.ask((block, pair.row()), j, Mask::from_bits(lanes)),
             };
             accepted |= u32::from(accepts) << j;
