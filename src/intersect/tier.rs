@@ -122,7 +122,7 @@ pub trait Curved: Copy + Send + Sync + 'static {
     fn cylinder_ahead<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
         lanes & !cylinder::is_behind(ray, c)
     }
-    /// As [`Curved::sphere_surely`].
+    /// As [`Curved::sphere_surely`]. To tell of a cylinder would take as long as to meet it.
     #[inline(always)]
     fn cylinder_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>, _limit: L) -> L::Mask {
         L::Mask::splat(false)
