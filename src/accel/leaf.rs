@@ -1,5 +1,7 @@
 //! Testing the primitives of a leaf, for every walk, query and tier.
 
+use std::cell::OnceCell;
+
 use wide::f32x8;
 
 use super::Accel;
@@ -26,15 +28,15 @@ pub(super) type OneForTriangles<T> = <<T as Tier>::Triangle as TriangleTest>::On
 #[derive(Clone, Copy)]
 pub(super) struct TestRays<'a, T: Tier> {
     pub(super) ray: &'a RayLanes<T::Wide>,
-    /// Means nothing to other primitives.
-    pub(super) triangle: &'a ForTriangles<T>,
+    /// None where they are put to other primitives alone.
+    pub(super) triangle: Option<&'a ForTriangles<T>>,
 }
 
 /// Rays prepared for boxes and primitives.
-#[derive(Clone, Copy)]
 pub(super) struct PreparedRays<T: Tier> {
     pub(super) ray: RayLanes<T::Wide>,
-    triangle: ForTriangles<T>,
+    /// Prepared when first asked for, as many rays meet none.
+    triangle: OnceCell<ForTriangles<T>>,
     pub(super) cull: CullRay<f32x8>,
 }
 
@@ -42,13 +44,14 @@ impl<T: Tier> PreparedRays<T> {
     /// Prepares rays for a tree.
     #[inline(always)]
     pub(super) fn new(ray: RayLanes<T::Wide>, tree: TreeRoot) -> Self {
-        Self { cull: cull_rays::<T>(&ray, tree), triangle: T::Triangle::prepare(&ray), ray }
+        Self { cull: cull_rays::<T>(&ray, tree), triangle: OnceCell::new(), ray }
     }
 
-    /// The same for primitives alone.
+    /// The same for the primitives of a block.
     #[inline(always)]
-    pub(super) fn test(&self) -> TestRays<'_, T> {
-        TestRays { ray: &self.ray, triangle: &self.triangle }
+    fn test(&self, block: &impl Block) -> TestRays<'_, T> {
+        let prepared = || self.triangle.get_or_init(|| T::Triangle::prepare(&self.ray));
+        TestRays { ray: &self.ray, triangle: block.corners_of_triangles().map(|_| prepared()) }
     }
 }
 
@@ -154,7 +157,8 @@ pub(super) trait Testable: Block + Sized {
 impl Testable for TriangleBlock {
     #[inline(always)]
     fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Triangle::may_hit(rays.ray, rays.triangle, self.corners::<W, _>(step))
+        let none = Mask::splat(false);
+        rays.triangle.map_or(none, |t| T::Triangle::may_hit(rays.ray, t, self.corners::<W, _>(step)))
     }
 
     #[inline(always)]
@@ -165,7 +169,8 @@ impl Testable for TriangleBlock {
         rays: &TestRays<T>,
         limit: T::Wide,
     ) -> LaneHit<T::Wide> {
-        T::Triangle::hit(lanes, rays.ray, rays.triangle, self.corners::<W, _>(step), limit)
+        let Some(triangle) = rays.triangle else { return LaneHit::none() };
+        T::Triangle::hit(lanes, rays.ray, triangle, self.corners::<W, _>(step), limit)
     }
 
     #[inline(always)]
@@ -190,7 +195,7 @@ impl Testable for TriangleBlock {
 
     #[inline(always)]
     fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
-        T::Triangle::glimpse(rays.ray, rays.triangle, self.corners::<W, _>(step))
+        T::Triangle::glimpse(rays.ray, rays.triangle?, self.corners::<W, _>(step))
     }
 }
 
@@ -304,7 +309,7 @@ pub(super) fn with_block(accel: &Accel, leaf: ChildRef, visitor: &mut impl Block
 
 /// Puts all primitives of a block to one query, eight rays to each.
 pub(super) struct EachPrimitive<'a, T: Tier, Q> {
-    pub(super) rays: TestRays<'a, T>,
+    pub(super) rays: &'a PreparedRays<T>,
     /// Around all rays, where that is worth knowing.
     pub(super) region: Option<&'a Region>,
     pub(super) query: &'a mut Q,
@@ -315,6 +320,7 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
     /// First the cheap half of all tests, then what may hit.
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
+        let rays = self.rays.test(block);
         let (mut likely, mut count) = ([(0, 0); WIDTH + 1], 0);
         let there = (1 << block.count()) - 1;
         let near = self.region.map_or(u32::MAX, |region| region.overlapped(|k| block.extent(k)));
@@ -322,13 +328,13 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
         while left != 0 {
             let i = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            let lanes = block.may_hit::<T, RaysByPrimitive>(i, &self.rays).bits();
+            let lanes = block.may_hit::<T, RaysByPrimitive>(i, &rays).bits();
             likely[count] = (i, lanes);
             count += usize::from(lanes != 0);
         }
         let mut accepted = false;
         for &(i, lanes) in &likely[..count] {
-            accepted |= self.pending.ask((block, i), Mask::from_bits(lanes), &self.rays, self.query);
+            accepted |= self.pending.ask((block, i), Mask::from_bits(lanes), &rays, self.query);
         }
         accepted
     }
@@ -336,14 +342,15 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
 
 /// Puts all primitives of a block to one query, at once to one ray.
 pub(super) struct AllPrimitives<'a, T: Tier, Q> {
-    pub(super) rays: TestRays<'a, T>,
+    pub(super) rays: &'a PreparedRays<T>,
     pub(super) query: &'a mut Q,
 }
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for AllPrimitives<'_, T, Q> {
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &self.rays) & block.there::<T>();
-        lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, &self.rays, self.query)
+        let rays = self.rays.test(block);
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays) & block.there::<T>();
+        lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, &rays, self.query)
     }
 }

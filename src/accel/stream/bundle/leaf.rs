@@ -204,7 +204,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
                 (_, Some(rounds)) => self.frustum.may_hit(rounds, i, j),
                 // Prepared for nothing: that means nothing but to triangles.
                 _ => {
-                    let rays = TestRays { ray: &self.rays[j], triangle: &work.prepared[j] };
+                    let rays = TestRays { ray: &self.rays[j], triangle: Some(&work.prepared[j]) };
                     block.may_hit::<T, RaysByPrimitive>(i, &rays).bits()
                 }
             };
@@ -273,7 +273,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
             return self.ask((block, i), j, Mask::from_bits(lanes));
         };
         lanes &= self.frustum.reaching(sight, i, j, T::above_f32(self.queries[j].limit()));
-        let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
+        let rays = TestRays { ray: &self.rays[j], triangle: Some(&self.work.prepared[j]) };
         lanes != 0
             && self.work.pending[j].meet((block, i), Mask::from_bits(lanes), &rays, &mut self.queries[j])
     }
@@ -286,7 +286,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
             self.work.is_prepared |= 1 << j;
             self.work.prepared[j] = T::Triangle::prepare(&self.rays[j]);
         }
-        let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
+        let rays = TestRays { ray: &self.rays[j], triangle: Some(&self.work.prepared[j]) };
         if is_triangles && !T::Triangle::GLIMPSES {
             lanes = lanes & block.may_hit::<T, RaysByPrimitive>(i, &rays);
         }
