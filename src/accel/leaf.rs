@@ -1,22 +1,22 @@
 //! Testing the primitives of a leaf, for every walk, query and tier.
 
+mod testable;
+
+pub(super) use testable::{Lanes, Testable};
+
 use std::cell::OnceCell;
 
 use wide::f32x8;
 
 use super::Accel;
-use super::block::{
-    Block, CylinderBlock, Picks, PrimitivesByRay, RaysByPrimitive, SphereBlock, TriangleBlock, Walk,
-};
+use super::block::{Block, PrimitivesByRay, RaysByPrimitive};
 use super::instance::TreeRoot;
 use super::node::ChildRef;
 use super::pending::Pending;
 use super::query::Query;
 use super::region::Region;
-use super::unchecked;
 use crate::intersect::aabb::CullRay;
-use crate::intersect::triangle::Glimpse;
-use crate::intersect::{Curved, LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
+use crate::intersect::{PrimKind, RayLanes, Tier, TriangleTest};
 use crate::math::{Lane, Mask, Vec3, WIDTH};
 
 /// What the triangle test of a tier prepares once a ray.
@@ -72,221 +72,6 @@ pub(super) fn cull_rays_by<T: Tier>(
     let origin = narrow(ray.origin);
     CullRay::new(origin, narrow(ray.direction), scale_for(origin))
 }
-
-/// Lanes of eight rays of a tier.
-pub(super) type Lanes<T> = <<T as Tier>::Wide as Lane>::Mask;
-
-/// A block that rays of a tier can be tested against.
-pub(super) trait Testable: Block + Sized {
-    /// Lanes whose rays may hit the primitives at a step of the walk, as far as is cheap to tell.
-    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T>;
-
-    /// Lanes that hold a primitive: of free ones, which hold NaN, no test is certain that they miss.
-    #[inline(always)]
-    fn there<T: Tier>(&self) -> Lanes<T> {
-        Mask::from_bits((1 << self.count()) - 1)
-    }
-
-    /// Meets those lanes with the primitives at a step of the walk.
-    fn hit<T: Tier, W: Walk>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        limit: T::Wide,
-    ) -> LaneHit<T::Wide>;
-
-    /// The block that a reference leads to.
-    fn of(accel: &Accel, leaf: ChildRef) -> &Self;
-
-    /// Primitives that one ray may hit, as bits.
-    fn candidates<T: Tier>(&self, ray: &RayLanes<T::Real>, triangle: &OneForTriangles<T>) -> u32;
-
-    /// Meets those lanes with such primitives, each of a block of its own.
-    fn hit_candidates<T: Tier>(
-        picks: &Picks<Self>,
-        lanes: Lanes<T>,
-        rays: &RayLanes<T::Wide>,
-        limit: T::Wide,
-    ) -> LaneHit<T::Wide>;
-
-    /// Of the lanes that may hit, those that do not certainly go away, as far as is cheap to tell beside meeting them.
-    #[inline(always)]
-    fn ahead<T: Tier, W: Walk>(&self, _: usize, lanes: Lanes<T>, _: &TestRays<T>) -> Lanes<T> {
-        lanes
-    }
-
-    /// Of the lanes that may hit, those that a query needs, as far as is cheap to tell beside meeting them.
-    #[inline(always)]
-    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
-        &self,
-        _: usize,
-        lanes: Lanes<T>,
-        _: &TestRays<T>,
-        _: &Q,
-    ) -> Lanes<T> {
-        lanes
-    }
-
-    /// Of the lanes that a query needs, those that certainly hit before `limit`, as far as is cheap to tell.
-    #[inline(always)]
-    fn surely<T: Tier, W: Walk>(&self, _: usize, _: Lanes<T>, _: &TestRays<T>, _limit: T::Wide) -> Lanes<T> {
-        Mask::splat(false)
-    }
-
-    /// What is certain without meeting them, where there is a cheap way to tell.
-    #[inline(always)]
-    fn glimpse<T: Tier, W: Walk>(&self, _step: usize, _: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
-        None
-    }
-
-    /// Puts lanes that may hit the primitives at a step of the walk to the query; true if any was accepted.
-    #[inline(always)]
-    fn ask<T: Tier, W: Walk, Q: Query<T::Wide>>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        query: &mut Q,
-    ) -> bool {
-        let hit = self.hit::<T, W>(step, lanes, rays, query.limit());
-        query.accept(rays.ray, &hit, W::ids(self.ids(), step))
-    }
-}
-
-impl Testable for TriangleBlock {
-    #[inline(always)]
-    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        let none = Mask::splat(false);
-        rays.triangle.map_or(none, |t| T::Triangle::may_hit(rays.ray, t, self.corners::<W, _>(step)))
-    }
-
-    #[inline(always)]
-    fn hit<T: Tier, W: Walk>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        limit: T::Wide,
-    ) -> LaneHit<T::Wide> {
-        let Some(triangle) = rays.triangle else { return LaneHit::none() };
-        T::Triangle::hit(lanes, rays.ray, triangle, self.corners::<W, _>(step), limit)
-    }
-
-    #[inline(always)]
-    fn of(accel: &Accel, leaf: ChildRef) -> &Self {
-        unchecked::triangles(accel, leaf)
-    }
-
-    #[inline(always)]
-    fn candidates<T: Tier>(&self, ray: &RayLanes<T::Real>, triangle: &OneForTriangles<T>) -> u32 {
-        T::Triangle::candidates::<T::Wide>(ray, triangle, self.corner_columns())
-    }
-
-    #[inline(always)]
-    fn hit_candidates<T: Tier>(
-        picks: &Picks<Self>,
-        _: Lanes<T>,
-        rays: &RayLanes<T::Wide>,
-        limit: T::Wide,
-    ) -> LaneHit<T::Wide> {
-        T::Triangle::test_candidates(rays, Self::gather(picks), limit)
-    }
-
-    #[inline(always)]
-    fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
-        T::Triangle::glimpse(rays.ray, rays.triangle?, self.corners::<W, _>(step))
-    }
-}
-
-/// Curved primitives are met alike, each kind by functions of its own.
-macro_rules! curved {
-    ($block:ty, $primitives:ident, $may_hit:ident, $ahead:ident, $within:ident, $surely:ident, $hit:ident) => {
-        impl Testable for $block {
-            #[inline(always)]
-            fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-                T::Curved::$may_hit(rays.ray, &self.$primitives::<W, _>(step))
-            }
-
-            #[inline(always)]
-            fn hit<T: Tier, W: Walk>(
-                &self,
-                step: usize,
-                lanes: Lanes<T>,
-                rays: &TestRays<T>,
-                _: T::Wide,
-            ) -> LaneHit<T::Wide> {
-                T::Curved::$hit(lanes, rays.ray, &self.$primitives::<W, _>(step))
-            }
-
-            #[inline(always)]
-            fn of(accel: &Accel, leaf: ChildRef) -> &Self {
-                &accel.$primitives[leaf.index() as usize]
-            }
-
-            #[inline(always)]
-            fn candidates<T: Tier>(&self, ray: &RayLanes<T::Real>, _: &OneForTriangles<T>) -> u32 {
-                let (ray, primitives) =
-                    (RayLanes::<T::Wide>::splat(ray), self.$primitives::<PrimitivesByRay, _>(0));
-                let lanes = T::Curved::$may_hit(&ray, &primitives) & self.there::<T>();
-                if lanes.any() { T::Curved::$ahead(lanes, &ray, &primitives).bits() } else { 0 }
-            }
-
-            #[inline(always)]
-            fn hit_candidates<T: Tier>(
-                picks: &Picks<Self>,
-                lanes: Lanes<T>,
-                rays: &RayLanes<T::Wide>,
-                _: T::Wide,
-            ) -> LaneHit<T::Wide> {
-                T::Curved::$hit(lanes, rays, &Self::gather(picks))
-            }
-
-            #[inline(always)]
-            fn surely<T: Tier, W: Walk>(
-                &self,
-                step: usize,
-                lanes: Lanes<T>,
-                rays: &TestRays<T>,
-                limit: T::Wide,
-            ) -> Lanes<T> {
-                T::Curved::$surely(lanes, rays.ray, &self.$primitives::<W, _>(step), limit)
-            }
-
-            #[inline(always)]
-            fn ahead<T: Tier, W: Walk>(&self, step: usize, lanes: Lanes<T>, rays: &TestRays<T>) -> Lanes<T> {
-                T::Curved::$ahead(lanes, rays.ray, &self.$primitives::<W, _>(step))
-            }
-
-            /// Lanes that still ask, or those that may hit before what was found.
-            #[inline(always)]
-            fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
-                &self,
-                step: usize,
-                lanes: Lanes<T>,
-                rays: &TestRays<T>,
-                query: &Q,
-            ) -> Lanes<T> {
-                let (lanes, limit) = (self.ahead::<T, W>(step, lanes, rays), query.limit());
-                match Q::ANY {
-                    true => lanes & limit.gt(rays.ray.t_min),
-                    false => T::Curved::$within(lanes, rays.ray, &self.$primitives::<W, _>(step), limit),
-                }
-            }
-        }
-    };
-}
-
-curved!(SphereBlock, spheres, may_hit_sphere, sphere_ahead, sphere_within, sphere_surely, hit_sphere);
-curved!(
-    CylinderBlock,
-    cylinders,
-    may_hit_cylinder,
-    cylinder_ahead,
-    cylinder_within,
-    cylinder_surely,
-    hit_cylinder
-);
 
 /// What is done with the block of a leaf, whatever its kind.
 pub(super) trait BlockVisitor {

@@ -5,6 +5,7 @@
 //! `oracle`, that it is property-tested against; above them all stands [`oracle`], which does not round at all.
 
 pub mod aabb;
+mod curved;
 pub mod cylinder;
 mod doubt;
 pub mod oracle;
@@ -14,6 +15,9 @@ pub mod sphere;
 pub(crate) mod testing;
 mod tier;
 pub mod triangle;
+mod triangle_test;
 
+pub use curved::Curved;
 pub use ray::{Hit, LaneHit, PrimId, PrimKind, Ray, RayLanes};
-pub use tier::{Curved, Exact, Fast, Tier, TierName, TriangleTest, Watertight};
+pub use tier::{Exact, Fast, Tier, TierName, Watertight};
+pub use triangle_test::TriangleTest;

@@ -18,7 +18,7 @@ mod sift;
 
 use self::chord::{Chord, Rims, Side, Sizes, between_caps};
 use self::products::{Fused, Plain, Products};
-pub use self::sift::{is_behind, is_beyond, may_hit};
+pub use self::sift::{is_behind, is_beyond, may_hit, surely_hits};
 use crate::intersect::doubt;
 use crate::intersect::{LaneHit, RayLanes};
 use crate::math::{Aabb, Lane, Mask, Vec3};
@@ -119,10 +119,8 @@ pub fn solve_widened<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &Lanes<L>) -
         }
         chord.settled(open.bits(), |i| exactly::chord(&wide_ray.get(i), &wide.get(i)))
     };
-    let mut hit =
-        LaneHit::narrow(solve_rounded::<_, Plain>(&wide_ray, &wide, |t| L::narrow(t).widen(), settle));
-    hit.mask = hit.mask & lanes;
-    hit
+    let hit = solve_rounded::<_, Plain>(&wide_ray, &wide, |t| L::narrow(t).widen(), settle);
+    LaneHit::narrow(hit).among(lanes)
 }
 
 /// The box of a cylinder, rounded outwards: along each axis a cap reaches `r sqrt(1 - a^2)` with `a` the share of the

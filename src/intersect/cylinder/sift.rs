@@ -58,3 +58,9 @@ pub fn is_behind<L: Lane>(ray: &RayLanes<L>, c: &Lanes<L>) -> L::Mask {
         & size_f.max(size_d).max(size_axis).lt(L::constant(1e6));
     (leaves_slab | leaves_side) & is_moderate & ray.t_min.ge(zero)
 }
+
+/// None: to tell of a cylinder that it is hit for certain takes as long as to meet it.
+#[inline(always)]
+pub fn surely_hits<L: Lane>(_: &RayLanes<L>, _: &Lanes<L>, _limit: L) -> L::Mask {
+    L::Mask::splat(false)
+}

@@ -2,10 +2,10 @@
 
 use super::oracle::{Cylinder, Part, meetings};
 use super::products::Plain;
-use super::{Lanes, is_behind, leaves, solve, solve_rounded, solve_widened};
+use super::{Lanes, is_behind, is_beyond, leaves, solve, solve_rounded, solve_widened};
+use crate::intersect::curved::Widened;
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
-use crate::intersect::tier::Widened;
 use crate::intersect::{Curved, LaneHit, RayLanes, oracle};
 use crate::math::{Real, Vec3};
 
@@ -362,7 +362,7 @@ fn only_hits_beyond_the_limit_are_left_out() {
         }
         let off = [0.0, dice.magnitude(-17.0, -1.0)][dice.below(2)];
         let limit = hit.t * (1.0 + off);
-        let within = Widened::cylinder_within(true, &r, &c, limit);
+        let within = !is_beyond(&r, &c, limit);
         assert!(within || hit.t > limit, "{hit:?} is not beyond {limit}: {c:?} by {r:?}");
         left_out += usize::from(!within);
     }

@@ -14,7 +14,7 @@ mod exactly;
 pub mod oracle;
 mod sift;
 
-pub use self::sift::{is_beyond, may_hit, surely_hits};
+pub use self::sift::{is_behind, is_beyond, may_hit, surely_hits};
 
 use crate::intersect::doubt::{self, Doubt};
 use crate::intersect::{LaneHit, RayLanes};

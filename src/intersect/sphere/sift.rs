@@ -54,3 +54,9 @@ pub fn may_hit<L: Lane>(ray: &RayLanes<L>, s: &Lanes<L>) -> L::Mask {
     let in_range = size.gt(L::constant(1e-36)) & size.lt(L::constant(1e36));
     !((misses | behind) & in_range)
 }
+
+/// None beside those that [`may_hit`] sorts out: it costs nothing to tell there.
+#[inline(always)]
+pub fn is_behind<L: Lane>(_: &RayLanes<L>, _: &Lanes<L>) -> L::Mask {
+    L::Mask::splat(false)
+}

@@ -1,9 +1,9 @@
 //! Spheres against exact arithmetic, and the cases that defeat the textbook quadratic.
 
-use super::{Lanes, leaves, oracle, solve, surely_hits};
+use super::{Lanes, is_beyond, leaves, oracle, solve, surely_hits};
+use crate::intersect::curved::Widened;
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
-use crate::intersect::tier::Widened;
 use crate::intersect::{Curved, LaneHit, RayLanes};
 use crate::math::{Real, Vec3};
 
@@ -205,7 +205,7 @@ fn only_hits_beyond_the_limit_are_left_out() {
         }
         let off = [0.0, dice.magnitude(-17.0, -1.0)][dice.below(2)];
         let limit = hit.t * (1.0 + off);
-        let within = Widened::sphere_within(true, &r, &s, limit);
+        let within = !is_beyond(&r, &s, limit);
         assert!(within || hit.t > limit, "{hit:?} is not beyond {limit}: {s:?} by {r:?}");
         left_out += usize::from(!within);
     }

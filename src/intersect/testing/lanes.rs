@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use wide::{f32x8, f64x8};
 
 use crate::intersect::aabb::{CullRay, OwnBox};
-use crate::intersect::tier::{Direct, Widened};
+use crate::intersect::curved::{Direct, Widened};
 use crate::intersect::triangle::{ExactVolumes, FilteredVolumes, MollerTrumbore, Woop};
 use crate::intersect::{Curved, LaneHit, RayLanes, TriangleTest, cylinder, plane, sphere};
 use crate::math::{Lane, Mask, Real, Vec3};

@@ -7,8 +7,8 @@ use proptest::prelude::*;
 use proptest::sample::select;
 
 use super::ray;
+use crate::intersect::curved::Widened;
 use crate::intersect::oracle::{self, Line, Shape, surfaces};
-use crate::intersect::tier::Widened;
 use crate::intersect::{Curved, LaneHit, RayLanes, cylinder, sphere};
 use crate::math::{Real, Vec3};
 

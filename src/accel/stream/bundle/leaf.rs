@@ -20,7 +20,7 @@ use crate::accel::block::{RaysByPrimitive, Round};
 use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
 use crate::accel::query::Query;
 use crate::intersect::triangle::Glimpse;
-use crate::intersect::{Curved, Tier, TriangleTest};
+use crate::intersect::{Tier, TriangleTest};
 use crate::math::{BitLane, Lane, Mask, WIDTH, three};
 
 /// Pairs of packets and round primitives from which it pays to look at what the rays have in common: camera rays, and those for
