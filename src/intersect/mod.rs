@@ -10,6 +10,7 @@ pub mod cylinder;
 mod doubt;
 pub mod oracle;
 pub mod plane;
+mod question;
 mod ray;
 pub mod sphere;
 pub(crate) mod testing;
