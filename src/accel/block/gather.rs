@@ -7,11 +7,11 @@ use crate::intersect::{cylinder, sphere};
 use crate::math::{Lane, Mask, Vec3, WIDTH, eight, three};
 
 /// Eight blocks, and a lane of each.
-pub type Picks<'a, B> = ([&'a B; WIDTH], [usize; WIDTH]);
+pub type Picks<'a, B> = (&'a [&'a B; WIDTH], &'a [usize; WIDTH]);
 
 /// A column, each lane from its own block.
 #[inline(always)]
-fn column<'a, B, L: Lane>((blocks, lanes): &Picks<'a, B>, of: impl Fn(&'a B) -> &'a [f32; WIDTH]) -> L {
+fn column<'a, B, L: Lane>((blocks, lanes): Picks<'a, B>, of: impl Fn(&'a B) -> &'a [f32; WIDTH]) -> L {
     // Each lane from a column loaded whole: eight loads of a number each become a gather, which is slow on many CPUs.
     let lane = |i: usize| f32x8::new(*of(blocks[i])).shuffle_wrapping(u32x8::splat(lanes[i] as u32));
     let mut gathered = lane(0);
@@ -23,7 +23,7 @@ fn column<'a, B, L: Lane>((blocks, lanes): &Picks<'a, B>, of: impl Fn(&'a B) -> 
 
 /// Columns by axis.
 #[inline(always)]
-fn columns<'a, B, L: Lane>(picks: &Picks<'a, B>, of: impl Fn(&'a B) -> &'a [[f32; WIDTH]; 3]) -> Vec3<L> {
+fn columns<'a, B, L: Lane>(picks: Picks<'a, B>, of: impl Fn(&'a B) -> &'a [[f32; WIDTH]; 3]) -> Vec3<L> {
     let [x, y, z] = three(|k| column(picks, |block| &of(block)[k]));
     Vec3 { x, y, z }
 }
@@ -31,7 +31,7 @@ fn columns<'a, B, L: Lane>(picks: &Picks<'a, B>, of: impl Fn(&'a B) -> &'a [[f32
 impl TriangleBlock {
     /// Corners of picked triangles.
     #[inline(always)]
-    pub fn gather<L: Lane>(picks: &Picks<Self>) -> [Vec3<L>; 3] {
+    pub fn gather<L: Lane>(picks: Picks<Self>) -> [Vec3<L>; 3] {
         three(|v| columns(picks, |block| &block.corner[v]))
     }
 }
@@ -39,7 +39,7 @@ impl TriangleBlock {
 impl SphereBlock {
     /// Picked spheres.
     #[inline(always)]
-    pub fn gather<L: Lane>(picks: &Picks<Self>) -> sphere::Lanes<L> {
+    pub fn gather<L: Lane>(picks: Picks<Self>) -> sphere::Lanes<L> {
         sphere::Lanes {
             center: columns(picks, |block| &block.center),
             radius: column(picks, |block| &block.radius),
@@ -50,7 +50,7 @@ impl SphereBlock {
 impl CylinderBlock {
     /// Picked cylinders.
     #[inline(always)]
-    pub fn gather<L: Lane>(picks: &Picks<Self>) -> cylinder::Lanes<L> {
+    pub fn gather<L: Lane>(picks: Picks<Self>) -> cylinder::Lanes<L> {
         let capped = eight(|i| (picks.0[i].capped >> picks.1[i] & 1) << i);
         cylinder::Lanes {
             from: columns(picks, |block| &block.from),

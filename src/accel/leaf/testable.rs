@@ -42,7 +42,7 @@ pub(in crate::accel) trait Testable: Block + Sized {
 
     /// Meets those lanes with such primitives, each of a block of its own.
     fn hit_candidates<T: Tier>(
-        picks: &Picks<Self>,
+        picks: Picks<Self>,
         lanes: Lanes<T>,
         rays: &RayLanes<T::Wide>,
         limit: T::Wide,
@@ -117,7 +117,7 @@ impl Testable for TriangleBlock {
 
     #[inline(always)]
     fn hit_candidates<T: Tier>(
-        picks: &Picks<Self>,
+        picks: Picks<Self>,
         _: Lanes<T>,
         rays: &RayLanes<T::Wide>,
         limit: T::Wide,
@@ -166,7 +166,7 @@ macro_rules! curved {
 
             #[inline(always)]
             fn hit_candidates<T: Tier>(
-                picks: &Picks<Self>,
+                picks: Picks<Self>,
                 lanes: Lanes<T>,
                 rays: &RayLanes<T::Wide>,
                 _: T::Wide,

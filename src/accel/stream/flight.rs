@@ -185,16 +185,16 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
     fn test_candidates<B: Testable>(&mut self, accel: &Accel, first: usize) {
         let (pairs, count) = self.candidates.eight(first);
         let slots = eight(|i| &self.slots[pairs[i].row()]);
-        let picks = (eight(|i| B::of(accel, slots[i].next)), eight(|i| pairs[i].lane()));
+        let (blocks, lanes) = (eight(|i| B::of(accel, slots[i].next)), eight(|i| pairs[i].lane()));
         let rays = RayLanes::<T::Wide>::of_rows(eight(|i| slots[i].row_of_ray()));
         let limit = T::Wide::from_fn(|i| slots[i].query.limit());
-        let hits = B::hit_candidates::<T>(&picks, Mask::from_bits((1 << count) - 1), &rays, limit);
+        let hits = B::hit_candidates::<T>((&blocks, &lanes), Mask::from_bits((1 << count) - 1), &rays, limit);
         let mut left = hits.mask.bits() & ((1 << count) - 1);
         while left != 0 {
             let i = left.trailing_zeros() as usize & 7;
             left &= left - 1;
             let at = pairs[i].row();
-            let id = picks.0[i].ids()[pairs[i].lane()];
+            let id = blocks[i].ids()[pairs[i].lane()];
             let hit = LaneHit { mask: true, t: hits.t.get(i), u: hits.u.get(i), v: hits.v.get(i) };
             self.found.insert_if(self.slots[at].accept(&hit, id), at);
         }
@@ -214,8 +214,10 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
                 slot.leave();
             }
         }
-        self.test_leaves::<SphereBlock>(accel, at_spheres);
-        self.test_leaves::<CylinderBlock>(accel, at_cylinders);
+        if !(at_spheres | at_cylinders).is_empty() {
+            self.test_leaves::<SphereBlock>(accel, at_spheres);
+            self.test_leaves::<CylinderBlock>(accel, at_cylinders);
+        }
         if !at_instances.is_empty() {
             self.enter_instances(accel, at_instances);
         }
