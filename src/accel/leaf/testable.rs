@@ -40,6 +40,12 @@ pub(in crate::accel) trait Testable: Block + Sized {
     /// Primitives that one ray may hit, as bits.
     fn candidates<T: Tier>(&self, ray: &RayLanes<T::Real>, triangle: &OneForTriangles<T>) -> u32;
 
+    /// Up to how many candidates cost less when each is met by itself.
+    const FEW: usize = 0;
+
+    /// Meets one ray with primitive `i`, which it may hit.
+    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real>;
+
     /// Meets those lanes with such primitives, each of a block of its own.
     fn hit_candidates<T: Tier>(
         picks: Picks<Self>,
@@ -116,6 +122,11 @@ impl Testable for TriangleBlock {
     }
 
     #[inline(always)]
+    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real> {
+        T::Triangle::test_candidates(ray, self.corners::<RaysByPrimitive, _>(i), limit)
+    }
+
+    #[inline(always)]
     fn hit_candidates<T: Tier>(
         picks: Picks<Self>,
         _: Lanes<T>,
@@ -162,6 +173,13 @@ macro_rules! curved {
                     (RayLanes::<T::Wide>::splat(ray), self.$primitives::<PrimitivesByRay, _>(0));
                 let lanes = $kind::may_hit(&ray, &primitives) & self.there::<T>();
                 if lanes.any() { (lanes & !$kind::is_behind(&ray, &primitives)).bits() } else { 0 }
+            }
+
+            const FEW: usize = 2;
+
+            #[inline(always)]
+            fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, _: T::Real) -> LaneHit<T::Real> {
+                T::Curved::$hit(true, ray, &self.$primitives::<RaysByPrimitive, _>(i))
             }
 
             #[inline(always)]

@@ -175,9 +175,20 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         for at in at_leaves {
             self.candidates.push(at, self.slots[at].candidates::<B>(accel));
         }
+        if self.candidates.len() <= B::FEW {
+            return (0..self.candidates.len()).for_each(|i| self.test_candidate::<B>(accel, i));
+        }
         for first in (0..self.candidates.len()).step_by(WIDTH) {
             self.test_candidates::<B>(accel, first);
         }
+    }
+
+    /// Tests one candidate.
+    #[inline(always)]
+    fn test_candidate<B: Testable>(&mut self, accel: &Accel, i: usize) {
+        let pair = self.candidates.get(i);
+        let slot = &mut self.slots[pair.row()];
+        self.found.insert_if(slot.test::<B>(accel, pair.lane()), pair.row());
     }
 
     /// Tests up to eight candidates, whosever they are.

@@ -6,6 +6,7 @@ use super::super::answers::Answers;
 use super::seeds::Seeds;
 use super::view::{Aim, TestRay, View, Views};
 use crate::accel::Accel;
+use crate::accel::block::Block;
 use crate::accel::leaf::Testable;
 use crate::accel::node::{ChildRef, Node8};
 use crate::accel::order::far_first;
@@ -141,5 +142,13 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
     #[inline(always)]
     pub(super) fn candidates<B: Testable>(&self, accel: &Accel) -> u32 {
         B::of(accel, self.next).candidates::<T>(&self.ray(), &self.test.triangle)
+    }
+
+    /// Tests primitive `i` of that leaf, which the ray may hit; true if a hit is accepted.
+    #[inline(always)]
+    pub(super) fn test<B: Testable>(&mut self, accel: &Accel, i: usize) -> bool {
+        let block = B::of(accel, self.next);
+        let hit = block.hit_one::<T>(i, &self.ray(), self.query.limit());
+        self.accept(&hit, block.ids()[i])
     }
 }
