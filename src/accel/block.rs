@@ -8,7 +8,7 @@ pub use walk::{PrimitivesByRay, RaysByPrimitive, Walk};
 
 use crate::geometry::Geometry;
 use crate::intersect::{PrimId, PrimKind, cylinder, sphere};
-use crate::math::{Lane, Mask, Vec3, WIDTH, eight, three};
+use crate::math::{Lane, Vec3, WIDTH, eight, three};
 use wide::{f32x8, u32x8};
 
 /// Up to eight triangles by their corners: a shared vertex must be the same three numbers in every triangle.

@@ -17,7 +17,7 @@ use super::query::Query;
 use super::region::Region;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::{PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, WIDTH};
+use crate::math::{Mask, Vec3, WIDTH};
 
 /// What the triangle test of a tier prepares once a ray.
 pub(super) type ForTriangles<T> = <<T as Tier>::Triangle as TriangleTest>::Prepared<<T as Tier>::Wide>;

@@ -6,7 +6,6 @@ use super::super::answers::Answers;
 use super::seeds::Seeds;
 use super::view::{Aim, TestRay, View, Views};
 use crate::accel::Accel;
-use crate::accel::block::Block;
 use crate::accel::leaf::Testable;
 use crate::accel::node::{ChildRef, Node8};
 use crate::accel::order::far_first;
