@@ -1,12 +1,14 @@
 //! Leaves: up to eight primitives of a kind, stored so that a test loads them as lanes.
 
+mod gather;
 mod walk;
 
+pub use gather::Picks;
 pub use walk::{PrimitivesByRay, RaysByPrimitive, Walk};
 
 use crate::geometry::Geometry;
 use crate::intersect::{PrimId, PrimKind, cylinder, sphere};
-use crate::math::{Lane, Mask, Vec3, WIDTH, eight, three};
+use crate::math::{Lane, Vec3, WIDTH, eight, three};
 use wide::{f32x8, u32x8};
 
 /// Up to eight triangles by their corners: a shared vertex must be the same three numbers in every triangle.
@@ -72,30 +74,6 @@ impl TriangleBlock {
     pub fn stands_as(&self, o: &Self) -> bool {
         let bits = |block: &Self| block.corner.map(|c| c.map(|axis| axis.map(f32::to_bits)));
         bits(self) == bits(o)
-    }
-    /// Corners of eight triangles from eight blocks: number `lanes[i]` of block `i` in lane `i`.
-    #[inline(always)]
-    pub fn gather<L: Lane>(blocks: &[&Self; WIDTH], lanes: &[usize; WIDTH]) -> [Vec3<L>; 3] {
-        three(|v| Vec3 {
-            x: Self::gather_column(blocks, lanes, (v, 0)),
-            y: Self::gather_column(blocks, lanes, (v, 1)),
-            z: Self::gather_column(blocks, lanes, (v, 2)),
-        })
-    }
-    #[inline(always)]
-    fn gather_column<L: Lane>(
-        blocks: &[&Self; WIDTH],
-        lanes: &[usize; WIDTH],
-        (v, axis): (usize, usize),
-    ) -> L {
-        // Each lane from a column loaded whole: eight loads of a number each become a gather, which is slow on many CPUs.
-        let column =
-            |i: usize| f32x8::new(blocks[i].corner[v][axis]).shuffle_wrapping(u32x8::splat(lanes[i] as u32));
-        let mut gathered = column(0);
-        for i in 1..WIDTH {
-            gathered = Lane::select(Mask::from_bits(1 << i), column(i), gathered);
-        }
-        L::load_f32(&gathered.to_array())
     }
     /// Corners, axes and triangles.
     #[inline(always)]

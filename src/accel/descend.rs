@@ -7,7 +7,7 @@
 use super::Accel;
 use super::block::Walk;
 use super::instance::TreeRoot;
-use super::leaf::{PreparedRays, TestRays};
+use super::leaf::PreparedRays;
 use super::node::{ChildRef, Node8};
 use super::query::Query;
 use crate::intersect::aabb::CullRay;
@@ -45,13 +45,13 @@ pub(super) trait Descend: Walk {
     fn visit_leaf<T: Tier, Q: Query<T::Wide>>(
         accel: &Accel,
         leaf: ChildRef,
-        rays: TestRays<'_, T>,
+        rays: &PreparedRays<T>,
         heading: &Heading<Self::Region>,
         query: &mut Q,
         kept: &mut Self::Kept<T>,
     );
     /// Leaves the query as it would be had nothing been kept.
-    fn settle<T: Tier, Q: Query<T::Wide>>(rays: TestRays<'_, T>, query: &mut Q, kept: &mut Self::Kept<T>);
+    fn settle<T: Tier, Q: Query<T::Wide>>(ray: &RayLanes<T::Wide>, query: &mut Q, kept: &mut Self::Kept<T>);
 }
 
 /// The octant of the first ray, and whether all rays share it.
@@ -165,15 +165,15 @@ pub(super) fn descend<T: Tier, D: Descend, Q: Query<T::Wide>>(
             let node = &accel.nodes[child.index() as usize];
             D::push_children(accel, node, &rays.cull, &heading, (t_min, limit), stack);
         } else if child.kind() == Accel::INSTANCE {
-            D::settle::<T, Q>(rays.test(), query, &mut kept);
+            D::settle::<T, Q>(&rays.ray, query, &mut kept);
             accel.visit_instance::<T, Q>(child, &rays.ray, query, |tree, local, query| {
                 saved += descend::<T, D, Q>(accel, tree, None, local, query, stack);
             });
         } else {
-            D::visit_leaf::<T, Q>(accel, child, rays.test(), &heading, query, &mut kept);
+            D::visit_leaf::<T, Q>(accel, child, rays, &heading, query, &mut kept);
         }
     }
-    D::settle::<T, Q>(rays.test(), query, &mut kept);
+    D::settle::<T, Q>(&rays.ray, query, &mut kept);
     stack.truncate(base);
     saved
 }

@@ -1,37 +1,42 @@
 //! Testing the primitives of a leaf, for every walk, query and tier.
 
+mod testable;
+
+pub(super) use testable::{Lanes, Testable};
+
+use std::cell::OnceCell;
+
 use wide::f32x8;
 
 use super::Accel;
-use super::block::{
-    Block, CylinderBlock, PrimitivesByRay, RaysByPrimitive, SphereBlock, TriangleBlock, Walk,
-};
+use super::block::{Block, PrimitivesByRay, RaysByPrimitive};
 use super::instance::TreeRoot;
 use super::node::ChildRef;
 use super::pending::Pending;
 use super::query::Query;
 use super::region::Region;
 use crate::intersect::aabb::CullRay;
-use crate::intersect::triangle::Glimpse;
-use crate::intersect::{Curved, LaneHit, PrimKind, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Vec3, WIDTH};
+use crate::intersect::{PrimKind, RayLanes, Tier, TriangleTest};
+use crate::math::{Mask, Vec3, WIDTH};
 
 /// What the triangle test of a tier prepares once a ray.
 pub(super) type ForTriangles<T> = <<T as Tier>::Triangle as TriangleTest>::Prepared<<T as Tier>::Wide>;
+/// The same for a ray that goes alone.
+pub(super) type OneForTriangles<T> = <<T as Tier>::Triangle as TriangleTest>::OneRay<<T as Tier>::Real>;
 
 /// Rays with all that the primitive tests of a tier prepare once a ray.
 #[derive(Clone, Copy)]
 pub(super) struct TestRays<'a, T: Tier> {
     pub(super) ray: &'a RayLanes<T::Wide>,
-    /// Means nothing to other primitives.
-    pub(super) triangle: &'a ForTriangles<T>,
+    /// None where they are put to other primitives alone.
+    pub(super) triangle: Option<&'a ForTriangles<T>>,
 }
 
 /// Rays prepared for boxes and primitives.
-#[derive(Clone, Copy)]
 pub(super) struct PreparedRays<T: Tier> {
     pub(super) ray: RayLanes<T::Wide>,
-    triangle: ForTriangles<T>,
+    /// Prepared when first asked for, as many rays meet none.
+    triangle: OnceCell<ForTriangles<T>>,
     pub(super) cull: CullRay<f32x8>,
 }
 
@@ -39,13 +44,14 @@ impl<T: Tier> PreparedRays<T> {
     /// Prepares rays for a tree.
     #[inline(always)]
     pub(super) fn new(ray: RayLanes<T::Wide>, tree: TreeRoot) -> Self {
-        Self { cull: cull_rays::<T>(&ray, tree), triangle: T::Triangle::prepare(&ray), ray }
+        Self { cull: cull_rays::<T>(&ray, tree), triangle: OnceCell::new(), ray }
     }
 
-    /// The same for primitives alone.
+    /// The same for the primitives of a block.
     #[inline(always)]
-    pub(super) fn test(&self) -> TestRays<'_, T> {
-        TestRays { ray: &self.ray, triangle: &self.triangle }
+    fn test(&self, block: &impl Block) -> TestRays<'_, T> {
+        let prepared = || self.triangle.get_or_init(|| T::Triangle::prepare(&self.ray));
+        TestRays { ray: &self.ray, triangle: block.corners_of_triangles().map(|_| prepared()) }
     }
 }
 
@@ -66,175 +72,6 @@ pub(super) fn cull_rays_by<T: Tier>(
     let origin = narrow(ray.origin);
     CullRay::new(origin, narrow(ray.direction), scale_for(origin))
 }
-
-/// Lanes of eight rays of a tier.
-pub(super) type Lanes<T> = <<T as Tier>::Wide as Lane>::Mask;
-
-/// A block that rays of a tier can be tested against.
-pub(super) trait Testable: Block {
-    /// Lanes whose rays may hit the primitives at a step of the walk, as far as is cheap to tell.
-    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T>;
-
-    /// Lanes that hold a primitive: of free ones, which hold NaN, no test is certain that they miss.
-    #[inline(always)]
-    fn there<T: Tier>(&self) -> Lanes<T> {
-        Mask::from_bits((1 << self.count()) - 1)
-    }
-
-    /// Meets those lanes with the primitives at a step of the walk.
-    fn hit<T: Tier, W: Walk>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        limit: T::Wide,
-    ) -> LaneHit<T::Wide>;
-
-    /// The same for one ray and primitive `i`.
-    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real>;
-
-    /// Of the lanes that may hit, those that do not certainly go away, as far as is cheap to tell beside meeting them.
-    #[inline(always)]
-    fn ahead<T: Tier, W: Walk>(&self, _: usize, lanes: Lanes<T>, _: &TestRays<T>) -> Lanes<T> {
-        lanes
-    }
-
-    /// Of the lanes that may hit, those that a query needs, as far as is cheap to tell beside meeting them.
-    #[inline(always)]
-    fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
-        &self,
-        _: usize,
-        lanes: Lanes<T>,
-        _: &TestRays<T>,
-        _: &Q,
-    ) -> Lanes<T> {
-        lanes
-    }
-
-    /// Of the lanes that a query needs, those that certainly hit before `limit`, as far as is cheap to tell.
-    #[inline(always)]
-    fn surely<T: Tier, W: Walk>(&self, _: usize, _: Lanes<T>, _: &TestRays<T>, _limit: T::Wide) -> Lanes<T> {
-        Mask::splat(false)
-    }
-
-    /// What is certain without meeting them, where there is a cheap way to tell.
-    #[inline(always)]
-    fn glimpse<T: Tier, W: Walk>(&self, _step: usize, _: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
-        None
-    }
-
-    /// Puts lanes that may hit the primitives at a step of the walk to the query; true if any was accepted.
-    #[inline(always)]
-    fn ask<T: Tier, W: Walk, Q: Query<T::Wide>>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        query: &mut Q,
-    ) -> bool {
-        let hit = self.hit::<T, W>(step, lanes, rays, query.limit());
-        query.accept(rays.ray, &hit, W::ids(self.ids(), step))
-    }
-}
-
-impl Testable for TriangleBlock {
-    #[inline(always)]
-    fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-        T::Triangle::may_hit(rays.ray, rays.triangle, self.corners::<W, _>(step))
-    }
-
-    #[inline(always)]
-    fn hit<T: Tier, W: Walk>(
-        &self,
-        step: usize,
-        lanes: Lanes<T>,
-        rays: &TestRays<T>,
-        limit: T::Wide,
-    ) -> LaneHit<T::Wide> {
-        T::Triangle::hit(lanes, rays.ray, rays.triangle, self.corners::<W, _>(step), limit)
-    }
-
-    #[inline(always)]
-    fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, limit: T::Real) -> LaneHit<T::Real> {
-        T::Triangle::test(ray, &T::Triangle::prepare(ray), self.corners::<RaysByPrimitive, _>(i), limit)
-    }
-
-    #[inline(always)]
-    fn glimpse<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Option<Glimpse<T::Wide>> {
-        T::Triangle::glimpse(rays.ray, rays.triangle, self.corners::<W, _>(step))
-    }
-}
-
-/// Curved primitives are met alike, each kind by functions of its own.
-macro_rules! curved {
-    ($block:ty, $primitives:ident, $may_hit:ident, $ahead:ident, $within:ident, $surely:ident, $hit:ident) => {
-        impl Testable for $block {
-            #[inline(always)]
-            fn may_hit<T: Tier, W: Walk>(&self, step: usize, rays: &TestRays<T>) -> Lanes<T> {
-                T::Curved::$may_hit(rays.ray, &self.$primitives::<W, _>(step))
-            }
-
-            #[inline(always)]
-            fn hit<T: Tier, W: Walk>(
-                &self,
-                step: usize,
-                lanes: Lanes<T>,
-                rays: &TestRays<T>,
-                _: T::Wide,
-            ) -> LaneHit<T::Wide> {
-                T::Curved::$hit(lanes, rays.ray, &self.$primitives::<W, _>(step))
-            }
-
-            #[inline(always)]
-            fn hit_one<T: Tier>(&self, i: usize, ray: &RayLanes<T::Real>, _: T::Real) -> LaneHit<T::Real> {
-                T::Curved::$hit(true, ray, &self.$primitives::<RaysByPrimitive, _>(i))
-            }
-
-            #[inline(always)]
-            fn surely<T: Tier, W: Walk>(
-                &self,
-                step: usize,
-                lanes: Lanes<T>,
-                rays: &TestRays<T>,
-                limit: T::Wide,
-            ) -> Lanes<T> {
-                T::Curved::$surely(lanes, rays.ray, &self.$primitives::<W, _>(step), limit)
-            }
-
-            #[inline(always)]
-            fn ahead<T: Tier, W: Walk>(&self, step: usize, lanes: Lanes<T>, rays: &TestRays<T>) -> Lanes<T> {
-                T::Curved::$ahead(lanes, rays.ray, &self.$primitives::<W, _>(step))
-            }
-
-            /// Lanes that still ask, or those that may hit before what was found.
-            #[inline(always)]
-            fn needed<T: Tier, W: Walk, Q: Query<T::Wide>>(
-                &self,
-                step: usize,
-                lanes: Lanes<T>,
-                rays: &TestRays<T>,
-                query: &Q,
-            ) -> Lanes<T> {
-                let (lanes, limit) = (self.ahead::<T, W>(step, lanes, rays), query.limit());
-                match Q::ANY {
-                    true => lanes & limit.gt(rays.ray.t_min),
-                    false => T::Curved::$within(lanes, rays.ray, &self.$primitives::<W, _>(step), limit),
-                }
-            }
-        }
-    };
-}
-
-curved!(SphereBlock, spheres, may_hit_sphere, sphere_ahead, sphere_within, sphere_surely, hit_sphere);
-curved!(
-    CylinderBlock,
-    cylinders,
-    may_hit_cylinder,
-    cylinder_ahead,
-    cylinder_within,
-    cylinder_surely,
-    hit_cylinder
-);
 
 /// What is done with the block of a leaf, whatever its kind.
 pub(super) trait BlockVisitor {
@@ -257,7 +94,7 @@ pub(super) fn with_block(accel: &Accel, leaf: ChildRef, visitor: &mut impl Block
 
 /// Puts all primitives of a block to one query, eight rays to each.
 pub(super) struct EachPrimitive<'a, T: Tier, Q> {
-    pub(super) rays: TestRays<'a, T>,
+    pub(super) rays: &'a PreparedRays<T>,
     /// Around all rays, where that is worth knowing.
     pub(super) region: Option<&'a Region>,
     pub(super) query: &'a mut Q,
@@ -268,6 +105,7 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
     /// First the cheap half of all tests, then what may hit.
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
+        let rays = self.rays.test(block);
         let (mut likely, mut count) = ([(0, 0); WIDTH + 1], 0);
         let there = (1 << block.count()) - 1;
         let near = self.region.map_or(u32::MAX, |region| region.overlapped(|k| block.extent(k)));
@@ -275,13 +113,13 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
         while left != 0 {
             let i = left.trailing_zeros() as usize & 7;
             left &= left - 1;
-            let lanes = block.may_hit::<T, RaysByPrimitive>(i, &self.rays).bits();
+            let lanes = block.may_hit::<T, RaysByPrimitive>(i, &rays).bits();
             likely[count] = (i, lanes);
             count += usize::from(lanes != 0);
         }
         let mut accepted = false;
         for &(i, lanes) in &likely[..count] {
-            accepted |= self.pending.ask((block, i), Mask::from_bits(lanes), &self.rays, self.query);
+            accepted |= self.pending.ask((block, i), Mask::from_bits(lanes), &rays, self.query);
         }
         accepted
     }
@@ -289,14 +127,15 @@ impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for EachPrimitive<'_, T, Q> {
 
 /// Puts all primitives of a block to one query, at once to one ray.
 pub(super) struct AllPrimitives<'a, T: Tier, Q> {
-    pub(super) rays: TestRays<'a, T>,
+    pub(super) rays: &'a PreparedRays<T>,
     pub(super) query: &'a mut Q,
 }
 
 impl<T: Tier, Q: Query<T::Wide>> BlockVisitor for AllPrimitives<'_, T, Q> {
     #[inline(always)]
     fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &self.rays) & block.there::<T>();
-        lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, &self.rays, self.query)
+        let rays = self.rays.test(block);
+        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays) & block.there::<T>();
+        lanes.any() && block.ask::<T, PrimitivesByRay, Q>(0, lanes, &rays, self.query)
     }
 }

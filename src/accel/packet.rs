@@ -7,7 +7,7 @@
 use super::block::RaysByPrimitive;
 use super::descend::{Descend, Heading, Octant};
 use super::instance::TreeRoot;
-use super::leaf::{EachPrimitive, TestRays, with_block};
+use super::leaf::{EachPrimitive, PreparedRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::pending::Pending;
 use super::query::Query;
@@ -78,7 +78,7 @@ impl Descend for RaysByPrimitive {
     fn visit_leaf<T: Tier, Q: Query<T::Wide>>(
         accel: &Accel,
         leaf: ChildRef,
-        rays: TestRays<'_, T>,
+        rays: &PreparedRays<T>,
         heading: &Heading<Option<Region>>,
         query: &mut Q,
         pending: &mut Pending<T>,
@@ -86,8 +86,8 @@ impl Descend for RaysByPrimitive {
         with_block(accel, leaf, &mut EachPrimitive { rays, region: heading.region.as_ref(), query, pending });
     }
     #[inline(always)]
-    fn settle<T: Tier, Q: Query<T::Wide>>(rays: TestRays<'_, T>, query: &mut Q, pending: &mut Pending<T>) {
-        pending.settle(rays.ray, query);
+    fn settle<T: Tier, Q: Query<T::Wide>>(ray: &RayLanes<T::Wide>, query: &mut Q, pending: &mut Pending<T>) {
+        pending.settle(ray, query);
     }
 }
 

@@ -6,7 +6,7 @@ use super::Accel;
 use super::block::PrimitivesByRay;
 use super::descend::{Descend, Heading};
 use super::instance::TreeRoot;
-use super::leaf::{AllPrimitives, TestRays, with_block};
+use super::leaf::{AllPrimitives, PreparedRays, with_block};
 use super::node::{ChildRef, Node8};
 use super::query::Query;
 use crate::intersect::aabb::CullRay;
@@ -81,7 +81,7 @@ impl Descend for PrimitivesByRay {
     fn visit_leaf<T: Tier, Q: Query<T::Wide>>(
         accel: &Accel,
         leaf: ChildRef,
-        rays: TestRays<'_, T>,
+        rays: &PreparedRays<T>,
         _: &Heading<()>,
         query: &mut Q,
         (): &mut (),
@@ -91,5 +91,5 @@ impl Descend for PrimitivesByRay {
         }
     }
     #[inline(always)]
-    fn settle<T: Tier, Q: Query<T::Wide>>(_: TestRays<'_, T>, _: &mut Q, (): &mut ()) {}
+    fn settle<T: Tier, Q: Query<T::Wide>>(_: &RayLanes<T::Wide>, _: &mut Q, (): &mut ()) {}
 }

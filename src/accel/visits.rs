@@ -50,7 +50,7 @@ impl Accel {
                 continue;
             }
             visits.blocks += 1;
-            let mut all = AllPrimitives { rays: rays.test(), query: &mut query };
+            let mut all = AllPrimitives { rays: &rays, query: &mut query };
             if child.kind() != Self::INSTANCE && with_block(self, child, &mut all) {
                 query.share_limit();
                 visits.hits = 1;

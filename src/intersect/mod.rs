@@ -5,15 +5,20 @@
 //! `oracle`, that it is property-tested against; above them all stands [`oracle`], which does not round at all.
 
 pub mod aabb;
+mod curved;
 pub mod cylinder;
 mod doubt;
 pub mod oracle;
 pub mod plane;
+mod question;
 mod ray;
 pub mod sphere;
 pub(crate) mod testing;
 mod tier;
 pub mod triangle;
+mod triangle_test;
 
+pub use curved::Curved;
 pub use ray::{Hit, LaneHit, PrimId, PrimKind, Ray, RayLanes};
-pub use tier::{Curved, Exact, Fast, Tier, TierName, TriangleTest, Watertight};
+pub use tier::{Exact, Fast, Tier, TierName, Watertight};
+pub use triangle_test::TriangleTest;

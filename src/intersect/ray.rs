@@ -203,6 +203,11 @@ impl<L: Lane> LaneHit<L> {
     pub fn none() -> Self {
         Self { mask: L::Mask::splat(false), t: L::zero(), u: L::zero(), v: L::zero() }
     }
+    /// Those of some lanes.
+    #[inline(always)]
+    pub(crate) fn among(self, lanes: L::Mask) -> Self {
+        Self { mask: self.mask & lanes, ..self }
+    }
     /// The hit of `f64` lanes rounded to these lanes.
     #[inline(always)]
     pub fn narrow(hit: LaneHit<L::Double>) -> Self {

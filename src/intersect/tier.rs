@@ -1,209 +1,11 @@
-//! Precision as a type: three markers that fix number type, triangle test and how curved surfaces are decided.
+//! Precision as a type: three markers that fix number type, triangle test and how curved surfaces are met.
 
 use wide::{f32x8, f64x8};
 
-use super::triangle::{ExactVolumes, FilteredVolumes, Glimpse, Woop};
-use super::{LaneHit, RayLanes, cylinder, sphere};
-use crate::math::{Lane, Mask, Real, Stored, Vec3, WIDTH, Wide};
-
-/// A triangle test: what it prepares once a ray, and what it asks of a triangle.
-pub trait TriangleTest: Copy + Send + Sync + 'static {
-    /// What is computed once a ray.
-    type Prepared<L: Lane>: Copy;
-    /// Prepares rays.
-    fn prepare<L: Lane>(ray: &RayLanes<L>) -> Self::Prepared<L>;
-    /// Lanes whose rays may hit their triangles: cheap, and few of them do not.
-    fn may_hit<L: Lane>(ray: &RayLanes<L>, prepared: &Self::Prepared<L>, vertices: [Vec3<L>; 3]) -> L::Mask;
-    /// Meets those lanes with their triangles; `limit` is the nearest hit so far, and hits beyond it may be left out.
-    fn hit<L: Lane>(
-        lanes: L::Mask,
-        ray: &RayLanes<L>,
-        prepared: &Self::Prepared<L>,
-        vertices: [Vec3<L>; 3],
-        limit: L,
-    ) -> LaneHit<L>;
-    /// True if [`TriangleTest::glimpse`] tells anything.
-    const GLIMPSES: bool = false;
-    /// What is certain of a meeting without [`TriangleTest::hit`], where there is a cheap way to tell.
-    #[inline(always)]
-    fn glimpse<L: Lane>(
-        _: &RayLanes<L>,
-        _: &Self::Prepared<L>,
-        _vertices: [Vec3<L>; 3],
-    ) -> Option<Glimpse<L>> {
-        None
-    }
-    /// Lanes whose rays have a triangle behind them for certain, as they have that which they left: one that a glimpse told
-    /// too little of. [`TriangleTest::hit`] finds it at zero or before.
-    #[inline(always)]
-    fn is_left<L: Lane>(_: &RayLanes<L>, _seen: &Glimpse<L>, _triangle: [[f32; 3]; 3]) -> L::Mask {
-        L::Mask::splat(false)
-    }
-    /// Where rays meet triangles that a glimpse told them to hit: as [`TriangleTest::hit`] finds it.
-    #[inline(always)]
-    fn settle<L: Lane>(_: &RayLanes<L>, _vertices: [Vec3<L>; 3]) -> LaneHit<L> {
-        LaneHit::none()
-    }
-    /// Meets rays with triangles: [`TriangleTest::hit`] where they may.
-    #[inline(always)]
-    fn test<L: Lane>(
-        ray: &RayLanes<L>,
-        prepared: &Self::Prepared<L>,
-        vertices: [Vec3<L>; 3],
-        limit: L,
-    ) -> LaneHit<L> {
-        let lanes = Self::may_hit(ray, prepared, vertices);
-        if !lanes.any() {
-            return LaneHit::none();
-        }
-        Self::hit(lanes, ray, prepared, vertices, limit)
-    }
-
-    /// What is computed once for a ray that meets eight triangles at a time.
-    type OneRay<R: Real>: Copy;
-    /// What eight rays were prepared with, for each alone.
-    fn each_of<L: Wide>(ray: &RayLanes<L>, prepared: &Self::Prepared<L>) -> [Self::OneRay<L::Scalar>; WIDTH];
-    /// Of eight triangles, stored by corner and axis, the lanes that [`TriangleTest::test`] may accept, as bits.
-    fn candidates<L: Lane>(
-        ray: &RayLanes<L::Scalar>,
-        prepared: &Self::OneRay<L::Scalar>,
-        corners: &[[[f32; WIDTH]; 3]; 3],
-    ) -> u32;
-    /// [`TriangleTest::test`] of candidates, each with its ray.
-    fn test_candidates<L: Lane>(ray: &RayLanes<L>, vertices: [Vec3<L>; 3], limit: L) -> LaneHit<L>;
-}
-
-/// How spheres and cylinders are decided.
-pub trait Curved: Copy + Send + Sync + 'static {
-    /// True if meeting them costs more than telling which rays may.
-    const SIFTS: bool;
-    /// Lanes whose rays may hit their spheres, as far as is cheap to tell.
-    fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> L::Mask;
-    /// Meets those lanes with their spheres.
-    fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> LaneHit<L>;
-    /// Of those lanes, the ones that may hit before `limit`, if it costs little beside meeting them to tell: not where no ray
-    /// has found anything yet.
-    #[inline(always)]
-    fn sphere_within<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
-        lanes
-    }
-    /// Of those lanes, the ones that do not certainly go away from their spheres.
-    #[inline(always)]
-    fn sphere_ahead<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>) -> L::Mask {
-        lanes
-    }
-    /// Of those lanes, the ones that certainly hit before `limit`, if it costs little beside meeting them to tell.
-    #[inline(always)]
-    fn sphere_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &sphere::Lanes<L>, _limit: L) -> L::Mask {
-        L::Mask::splat(false)
-    }
-    /// Lanes whose rays may hit their cylinders, as far as is cheap to tell.
-    fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> L::Mask;
-    /// As [`Curved::sphere_within`].
-    #[inline(always)]
-    fn cylinder_within<L: Lane>(
-        lanes: L::Mask,
-        _: &RayLanes<L>,
-        _: &cylinder::Lanes<L>,
-        _limit: L,
-    ) -> L::Mask {
-        lanes
-    }
-    /// As [`Curved::sphere_surely`].
-    #[inline(always)]
-    fn cylinder_surely<L: Lane>(_: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>, _limit: L) -> L::Mask {
-        L::Mask::splat(false)
-    }
-    /// Of those lanes, the ones that do not certainly go away from their cylinders.
-    #[inline(always)]
-    fn cylinder_ahead<L: Lane>(lanes: L::Mask, _: &RayLanes<L>, _: &cylinder::Lanes<L>) -> L::Mask {
-        lanes
-    }
-    /// Meets those lanes with their cylinders.
-    fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L>;
-
-    /// Meets rays with spheres: the two of above.
-    #[inline(always)]
-    fn sphere<L: Lane>(ray: &RayLanes<L>, sphere: &sphere::Lanes<L>) -> LaneHit<L> {
-        let lanes = Self::may_hit_sphere(ray, sphere);
-        if lanes.any() { Self::hit_sphere(lanes, ray, sphere) } else { LaneHit::none() }
-    }
-    /// Meets rays with cylinders: the two of above.
-    #[inline(always)]
-    fn cylinder<L: Lane>(ray: &RayLanes<L>, cylinder: &cylinder::Lanes<L>) -> LaneHit<L> {
-        let lanes = Self::may_hit_cylinder(ray, cylinder);
-        if lanes.any() { Self::hit_cylinder(lanes, ray, cylinder) } else { LaneHit::none() }
-    }
-}
-
-/// Solves in the number type of the lanes.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Direct;
-
-/// Sorts out what certainly misses without a quotient or a root, in the number type of the lanes, and solves the rest in `f64`.
-#[derive(Clone, Copy, Debug, Default)]
-pub struct Filtered;
-
-impl Curved for Direct {
-    const SIFTS: bool = false;
-    #[inline(always)]
-    fn may_hit_sphere<L: Lane>(_: &RayLanes<L>, _: &sphere::Lanes<L>) -> L::Mask {
-        L::Mask::splat(true)
-    }
-    #[inline(always)]
-    fn hit_sphere<L: Lane>(_: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
-        sphere::solve(ray, s)
-    }
-    #[inline(always)]
-    fn may_hit_cylinder<L: Lane>(_: &RayLanes<L>, _: &cylinder::Lanes<L>) -> L::Mask {
-        L::Mask::splat(true)
-    }
-    #[inline(always)]
-    fn hit_cylinder<L: Lane>(_: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
-        cylinder::solve(ray, c)
-    }
-}
-
-impl Curved for Filtered {
-    const SIFTS: bool = true;
-    #[inline(always)]
-    fn may_hit_sphere<L: Lane>(ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> L::Mask {
-        sphere::may_hit(ray, s)
-    }
-    #[inline(always)]
-    fn sphere_within<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
-        if limit.lt(ray.t_max).any() { lanes & !sphere::is_beyond(ray, s, limit) } else { lanes }
-    }
-    #[inline(always)]
-    fn sphere_surely<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>, limit: L) -> L::Mask {
-        lanes & sphere::surely_hits(ray, s, limit)
-    }
-    #[inline(always)]
-    fn hit_sphere<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, s: &sphere::Lanes<L>) -> LaneHit<L> {
-        sphere::solve_widened(lanes, ray, s)
-    }
-    #[inline(always)]
-    fn may_hit_cylinder<L: Lane>(ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
-        cylinder::may_hit(ray, c)
-    }
-    #[inline(always)]
-    fn cylinder_within<L: Lane>(
-        lanes: L::Mask,
-        ray: &RayLanes<L>,
-        c: &cylinder::Lanes<L>,
-        limit: L,
-    ) -> L::Mask {
-        if limit.lt(ray.t_max).any() { lanes & !cylinder::is_beyond(ray, c, limit) } else { lanes }
-    }
-    #[inline(always)]
-    fn cylinder_ahead<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> L::Mask {
-        lanes & !cylinder::is_behind(ray, c)
-    }
-    #[inline(always)]
-    fn hit_cylinder<L: Lane>(lanes: L::Mask, ray: &RayLanes<L>, c: &cylinder::Lanes<L>) -> LaneHit<L> {
-        cylinder::solve_widened(lanes, ray, c)
-    }
-}
+use super::TriangleTest;
+use super::curved::{Curved, Direct, Widened};
+use super::triangle::{ExactVolumes, FilteredVolumes, Woop};
+use crate::math::{Lane, Real, Stored, Wide};
 
 mod sealed {
     pub trait Sealed {}
@@ -217,7 +19,7 @@ pub trait Tier: sealed::Sealed + Copy + Default + Send + Sync + 'static {
     type Wide: Wide<Scalar = Self::Real, Bits = wide::u32x8>;
     /// The triangle test.
     type Triangle: TriangleTest;
-    /// How spheres and cylinders are decided.
+    /// How spheres and cylinders are met.
     type Curved: Curved;
     /// The name of the tier.
     const NAME: TierName;
@@ -268,8 +70,8 @@ macro_rules! tier {
     };
 }
 tier!(Fast, f32, f32x8, FilteredVolumes, Direct, as_is, as_is, as_is);
-tier!(Watertight, f32, f32x8, Woop, Filtered, as_is, as_is, as_is);
-tier!(Exact, f64, f64x8, ExactVolumes, Filtered, f32x8::narrow, above, below);
+tier!(Watertight, f32, f32x8, Woop, Widened, as_is, as_is, as_is);
+tier!(Exact, f64, f64x8, ExactVolumes, Widened, f32x8::narrow, above, below);
 
 #[inline(always)]
 fn as_is(x: f32x8) -> f32x8 {

@@ -10,6 +10,7 @@
 //! Each ray visits what it would visit alone, in the same order. On its way into an instance it leaves a note on its stack
 //! that brings it back out.
 
+mod leaves;
 mod seeds;
 mod slot;
 mod slots;
@@ -20,12 +21,12 @@ use super::answers::Answers;
 use super::candidates::{Candidates, room_for};
 use super::columns::RayColumns;
 use crate::accel::Accel;
-use crate::accel::block::{Block, TriangleBlock};
+use crate::accel::block::{CylinderBlock, SphereBlock, TriangleBlock};
 use crate::accel::node::{ChildRef, Node8};
 use crate::accel::query::Query;
 use crate::accel::unchecked::{self, Stacks};
-use crate::intersect::{LaneHit, RayLanes, Tier, TriangleTest};
-use crate::math::{Lane, Mask, Stored, WIDTH, eight};
+use crate::intersect::{PrimKind, Tier};
+use crate::math::{Lane, Stored, WIDTH};
 use seeds::Seeds;
 use slot::Slot;
 use slots::{SLOTS, SlotSet};
@@ -146,10 +147,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         }
         self.taken = self.taken & !done;
         self.found = SlotSet::default();
-        self.find_candidates(accel, at_triangles);
-        for first in (0..self.candidates.len()).step_by(WIDTH) {
-            self.test_candidates(accel, first);
-        }
+        self.test_leaves::<TriangleBlock>(accel, at_triangles);
         if !at_others.is_empty() {
             self.visit_others(accel, at_others);
         }
@@ -170,49 +168,23 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         [done, at_triangles, out & !(done | at_triangles)]
     }
 
-    /// Finds out which triangles of the leaves may be hit.
-    #[inline(always)]
-    fn find_candidates(&mut self, accel: &Accel, at_triangles: SlotSet) {
-        self.candidates.clear();
-        for at in at_triangles {
-            self.candidates.push(at, self.slots[at].candidates(accel));
-        }
-    }
-
-    /// Tests up to eight candidates, whosever they are.
-    #[inline(always)]
-    fn test_candidates(&mut self, accel: &Accel, first: usize) {
-        let (pairs, count) = self.candidates.eight(first);
-        let slots = eight(|i| &self.slots[pairs[i].row()]);
-        let blocks = eight(|i| unchecked::triangles(accel, slots[i].next));
-        let rays = RayLanes::<T::Wide>::of_rows(eight(|i| slots[i].row_of_ray()));
-        let corners = TriangleBlock::gather(&blocks, &eight(|i| pairs[i].lane()));
-        let limit = T::Wide::from_fn(|i| slots[i].query.limit());
-        let hits = T::Triangle::test_candidates(&rays, corners, limit);
-        let mut left = hits.mask.bits() & ((1 << count) - 1);
-        while left != 0 {
-            let i = left.trailing_zeros() as usize & 7;
-            left &= left - 1;
-            let at = pairs[i].row();
-            let id = blocks[i].ids()[pairs[i].lane()];
-            let hit = LaneHit { mask: true, t: hits.t.get(i), u: hits.u.get(i), v: hits.v.get(i) };
-            self.found.insert_if(self.slots[at].accept(&hit, id), at);
-        }
-    }
-
     /// Visits leaves of anything but triangles, and goes in and out of instances.
     #[inline(never)]
     fn visit_others(&mut self, accel: &Accel, at_others: SlotSet) {
-        let mut at_instances = SlotSet::default();
+        let [mut at_spheres, mut at_cylinders, mut at_instances] = [SlotSet::default(); 3];
         for at in at_others {
             let slot = &mut self.slots[at];
+            // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
+            at_spheres.insert_if(slot.next.kind() == PrimKind::Sphere as u8, at);
+            at_cylinders.insert_if(slot.next.kind() == PrimKind::Cylinder as u8, at);
             at_instances.insert_if(slot.next.kind() == Accel::INSTANCE, at);
             if slot.next == LEAVE {
                 slot.leave();
-            } else if slot.next.kind() < Accel::INSTANCE {
-                // Where the slabs of huge scenes overflow, a ray may seem to meet even the box of a free slot.
-                self.found.insert_if(slot.test_block(accel), at);
             }
+        }
+        if !(at_spheres | at_cylinders).is_empty() {
+            self.test_leaves::<SphereBlock>(accel, at_spheres);
+            self.test_leaves::<CylinderBlock>(accel, at_cylinders);
         }
         if !at_instances.is_empty() {
             self.enter_instances(accel, at_instances);

@@ -7,7 +7,6 @@
 //! Whether an end of the chord lies before or behind the origin is the sign of such forms too, and that of the quotient that
 //! its `t` is.
 
-use std::cell::OnceCell;
 use std::cmp::Ordering;
 
 use dashu::integer::IBig;
@@ -16,7 +15,8 @@ use super::Lanes;
 use crate::intersect::RayLanes;
 use crate::intersect::doubt::{roots, size};
 use crate::intersect::oracle::number::Unit;
-use crate::math::{Pair, Ring, Vec3, pairs, ring_cross, ring_dot, sign, two_sum, value};
+use crate::intersect::question::{self, Question, Whole};
+use crate::math::{Pair, Ring, Vec3, pairs, ring_cross, ring_dot, two_sum};
 
 /// The part of a line inside a cylinder, its ends on the sides of zero that are exactly right.
 #[derive(Clone, Copy, Debug)]
@@ -28,15 +28,32 @@ pub(super) struct Chord {
 }
 
 /// The chord of a line and a cylinder, decided without rounding; none for NaN, infinities and rays that go nowhere.
-pub(super) fn chord(ray: &RayLanes<f64>, cylinder: &Lanes<f64>) -> Option<Chord> {
-    let question = Question::new(ray, cylinder)?;
-    let across = question.sign(Form::Across);
-    if across.is_eq() {
-        return question.is_near().then(|| question.between_roots([Ordering::Greater; 2]));
+pub(super) fn chord(ray: &RayLanes<f64>, c: &Lanes<f64>) -> Option<Chord> {
+    let (origin, direction, ends) = (ray.origin.get(0), ray.direction.get(0), [c.from.get(0), c.to.get(0)]);
+    if direction == [0.0; 3] {
+        return None;
     }
-    let at_ends = [Form::InsideAt(0), Form::InsideAt(1)].map(|form| question.sign(form).reverse());
-    let meets = at_ends.iter().any(|at| at.is_le()) || question.is_near();
-    meets.then(|| question.between_roots(if across.is_gt() { at_ends } else { [at_ends[1], at_ends[0]] }))
+    let between = |p: [f64; 3], q: [f64; 3]| std::array::from_fn(|k| two_sum(p[k], -q[k]));
+    let axis = between(ends[1], ends[0]);
+    let pairs = Parts::new(ends.map(|end| between(origin, end)), pairs(direction), axis, [c.radius, 0.0]);
+    let rounded = |v: &[Pair; 3]| size(Vec3::<f64>::splat(v.map(|x| x[0])));
+    let length = rounded(&axis);
+    let sizes = [rounded(&pairs.offset[0]) + length + c.radius, size(ray.direction), length];
+    let whole = || in_whole_numbers([origin, direction], ends, c.radius);
+    let question = Question::new(pairs, whole, sizes);
+    question.size(Form::Near).is_finite().then(|| question.chord())?
+}
+
+/// Of origin and direction of a line, and a cylinder.
+fn in_whole_numbers([origin, direction]: [[f64; 3]; 2], ends: [[f64; 3]; 2], radius: f64) -> Whole<Form> {
+    let numbers = ends.as_flattened().iter().chain(&origin).chain([&radius]);
+    let units = [Unit::of(numbers.copied()), Unit::of(direction)];
+    let lift = |p: [f64; 3]| p.map(|x| units[0].lift(x));
+    let (origin, ends) = (lift(origin), ends.map(lift));
+    let between = |p: &[IBig; 3], q: &[IBig; 3]| std::array::from_fn(|k| &p[k] - &q[k]);
+    let offsets = [0, 1].map(|end| between(&origin, &ends[end]));
+    let direction = direction.map(|x| units[1].lift(x));
+    Whole { parts: Parts::new(offsets, direction, between(&ends[1], &ends[0]), units[0].lift(radius)), units }
 }
 
 /// What is asked the sign of.
@@ -62,21 +79,6 @@ enum Form {
     Away,
 }
 
-impl Form {
-    /// How often a length across, the direction and the axis are factors.
-    fn factors(self) -> [usize; 3] {
-        match self {
-            Self::Across => [0, 1, 1],
-            Self::Turned => [0, 2, 2],
-            Self::NotBefore | Self::NotBeyond => [1, 2, 1],
-            Self::InsideAt(_) | Self::Near => [2, 2, 2],
-            Self::Height(_) => [1, 0, 1],
-            Self::Outside => [2, 0, 2],
-            Self::Away => [1, 1, 2],
-        }
-    }
-}
-
 /// The vectors that the forms are made of.
 struct Parts<N> {
     offset: [[N; 3]; 2],
@@ -95,100 +97,60 @@ impl<N: Ring> Parts<N> {
         let normal = ring_cross(&direction, &axis);
         Self { offset, direction, axis, radius, moment, normal }
     }
-
-    fn value(&self, form: Form) -> N {
-        let (n, zero) = (&self.normal, self.radius.minus(&self.radius));
-        match form {
-            Form::Across => ring_dot(&self.direction, &self.axis),
-            Form::InsideAt(end) => {
-                let across = ring_cross(&self.axis, &self.moment[end]);
-                let reach = self.radius.times(&self.value(Form::Across));
-                reach.squared().minus(&ring_dot(&across, &across))
-            }
-            Form::Turned => ring_dot(n, n),
-            Form::NotBefore => zero.minus(&ring_dot(&self.moment[0], n)),
-            Form::NotBeyond => ring_dot(&self.moment[1], n),
-            Form::Near => {
-                let reach = self.radius.squared().times(&ring_dot(n, n));
-                reach.minus(&ring_dot(&self.offset[0], n).squared())
-            }
-            Form::Height(end) => ring_dot(&self.offset[end], &self.axis),
-            Form::Outside => {
-                let across = ring_cross(&self.offset[0], &self.axis);
-                let reach = self.radius.squared().times(&ring_dot(&self.axis, &self.axis));
-                ring_dot(&across, &across).minus(&reach)
-            }
-            Form::Away => ring_dot(&ring_cross(&self.offset[0], &self.axis), n),
-        }
-    }
 }
 
-/// Whole numbers of a unit of lengths and one of the direction.
-struct Whole {
-    parts: Parts<IBig>,
-    units: [Unit; 2],
+impl question::Form for Form {
+    type Parts<N: Ring> = Parts<N>;
+
+    fn of<N: Ring>(self, parts: &Parts<N>) -> N {
+        let (n, zero) = (&parts.normal, parts.radius.minus(&parts.radius));
+        match self {
+            Self::Across => ring_dot(&parts.direction, &parts.axis),
+            Self::InsideAt(end) => {
+                let across = ring_cross(&parts.axis, &parts.moment[end]);
+                let reach = parts.radius.times(&Self::Across.of(parts));
+                reach.squared().minus(&ring_dot(&across, &across))
+            }
+            Self::Turned => ring_dot(n, n),
+            Self::NotBefore => zero.minus(&ring_dot(&parts.moment[0], n)),
+            Self::NotBeyond => ring_dot(&parts.moment[1], n),
+            Self::Near => {
+                let reach = parts.radius.squared().times(&ring_dot(n, n));
+                reach.minus(&ring_dot(&parts.offset[0], n).squared())
+            }
+            Self::Height(end) => ring_dot(&parts.offset[end], &parts.axis),
+            Self::Outside => {
+                let across = ring_cross(&parts.offset[0], &parts.axis);
+                let reach = parts.radius.squared().times(&ring_dot(&parts.axis, &parts.axis));
+                ring_dot(&across, &across).minus(&reach)
+            }
+            Self::Away => ring_dot(&ring_cross(&parts.offset[0], &parts.axis), n),
+        }
+    }
+
+    fn factors(self) -> [usize; 3] {
+        match self {
+            Self::Across => [0, 1, 1],
+            Self::Turned => [0, 2, 2],
+            Self::NotBefore | Self::NotBeyond => [1, 2, 1],
+            Self::InsideAt(_) | Self::Near => [2, 2, 2],
+            Self::Height(_) => [1, 0, 1],
+            Self::Outside => [2, 0, 2],
+            Self::Away => [1, 1, 2],
+        }
+    }
 }
 
 /// A line and a cylinder.
-struct Question {
-    pairs: Parts<Pair>,
-    whole: OnceCell<Whole>,
-    origin: [f64; 3],
-    direction: [f64; 3],
-    ends: [[f64; 3]; 2],
-    radius: f64,
-    /// Sums of magnitudes: of all lengths, of the direction, and of the axis.
-    sizes: [f64; 3],
-}
-
-impl Question {
-    fn new(ray: &RayLanes<f64>, c: &Lanes<f64>) -> Option<Self> {
-        let (origin, direction) = (ray.origin.get(0), ray.direction.get(0));
-        if direction == [0.0; 3] {
-            return None;
+impl<W: FnOnce() -> Whole<Form>> Question<Form, W> {
+    fn chord(&self) -> Option<Chord> {
+        let across = self.sign(Form::Across);
+        if across.is_eq() {
+            return self.is_near().then(|| self.between_roots([Ordering::Greater; 2]));
         }
-        let (ends, radius) = ([c.from.get(0), c.to.get(0)], c.radius);
-        let between = |p: [f64; 3], q: [f64; 3]| std::array::from_fn(|k| two_sum(p[k], -q[k]));
-        let axis = between(ends[1], ends[0]);
-        let pairs = Parts::new(ends.map(|end| between(origin, end)), pairs(direction), axis, [radius, 0.0]);
-        let rounded = |v: &[Pair; 3]| size(Vec3::<f64>::splat(v.map(|x| x[0])));
-        let (d, a) = (size(ray.direction), rounded(&axis));
-        let sizes = [rounded(&pairs.offset[0]) + a + radius, d, a];
-        let whole = OnceCell::new();
-        let question = Self { pairs, whole, origin, direction, ends, radius, sizes };
-        question.size(Form::Near).is_finite().then_some(question)
-    }
-
-    /// The product of the sizes of the factors.
-    fn size(&self, form: Form) -> f64 {
-        let factors = self.sizes.iter().zip(form.factors());
-        factors.flat_map(|(size, times)| std::iter::repeat_n(size, times)).product()
-    }
-
-    fn sign(&self, form: Form) -> Ordering {
-        sign(self.pairs.value(form), self.size(form), || self.whole().parts.value(form))
-    }
-
-    fn value(&self, form: Form) -> f64 {
-        value(self.pairs.value(form), self.size(form), || {
-            let ([across, along, axes], Whole { parts, units }) = (form.factors(), self.whole());
-            units[0].drop(across + axes, units[1], along, parts.value(form))
-        })
-    }
-
-    /// No sign depends on the units.
-    fn whole(&self) -> &Whole {
-        self.whole.get_or_init(|| {
-            let numbers = self.ends.as_flattened().iter().chain(&self.origin).chain([&self.radius]);
-            let units = [Unit::of(numbers.copied()), Unit::of(self.direction)];
-            let lift = |p: [f64; 3]| p.map(|x| units[0].lift(x));
-            let (origin, ends) = (lift(self.origin), self.ends.map(lift));
-            let between = |p: &[IBig; 3], q: &[IBig; 3]| std::array::from_fn(|k| &p[k] - &q[k]);
-            let offsets = [0, 1].map(|end| between(&origin, &ends[end]));
-            let direction = self.direction.map(|x| units[1].lift(x));
-            let radius = units[0].lift(self.radius);
-            Whole { parts: Parts::new(offsets, direction, between(&ends[1], &ends[0]), radius), units }
-        })
+        let at_ends = [Form::InsideAt(0), Form::InsideAt(1)].map(|form| self.sign(form).reverse());
+        let meets = at_ends.iter().any(|at| at.is_le()) || self.is_near();
+        meets.then(|| self.between_roots(if across.is_gt() { at_ends } else { [at_ends[1], at_ends[0]] }))
     }
 
     /// Whether the line, not along the axis, passes it between the caps and within the radius.

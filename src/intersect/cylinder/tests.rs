@@ -2,10 +2,10 @@
 
 use super::oracle::{Cylinder, Part, meetings};
 use super::products::Plain;
-use super::{Lanes, is_behind, leaves, solve, solve_rounded, solve_widened};
+use super::{Lanes, is_behind, is_beyond, leaves, solve, solve_rounded, solve_widened};
+use crate::intersect::curved::Widened;
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
-use crate::intersect::tier::Filtered;
 use crate::intersect::{Curved, LaneHit, RayLanes, oracle};
 use crate::math::{Real, Vec3};
 
@@ -107,20 +107,20 @@ fn the_filter_keeps_a_speck_seen_from_far_away() {
         let c = Lanes { from: Vec3::splat([0.0; 3]), to, radius: 1e-22, capped: true };
         let tiny = 2f32.powi(-66);
         let r = line(heading.map(|x| -x * 2f32.powi(33)), heading.map(|x| x * tiny));
-        assert!(Filtered::cylinder(&r, &c).mask, "{r:?} {c:?}");
+        assert!(Widened::cylinder(&r, &c).mask, "{r:?} {c:?}");
     }
 }
 
 #[test]
 fn the_filtered_test_agrees_with_exact_arithmetic() {
-    assert_agrees("filtered along", Filtered::cylinder::<f32>, f64::ROUNDOFF, 32.0, along_the_axis);
-    assert_agrees("filtered", Filtered::cylinder::<f32>, f64::ROUNDOFF, 32.0, anywhere);
+    assert_agrees("filtered along", Widened::cylinder::<f32>, f64::ROUNDOFF, 32.0, along_the_axis);
+    assert_agrees("filtered", Widened::cylinder::<f32>, f64::ROUNDOFF, 32.0, anywhere);
 }
 
 /// Slip: side asked by height and cap by radius, each rounded alone, so that rays at the rim pass between them.
 #[test]
 fn no_ray_passes_between_side_and_cap() {
-    assert_agrees("filtered at the rim", Filtered::cylinder::<f32>, f64::ROUNDOFF, 32.0, at_the_rim);
+    assert_agrees("filtered at the rim", Widened::cylinder::<f32>, f64::ROUNDOFF, 32.0, at_the_rim);
     assert_agrees("direct at the rim", solve::<f32>, f32::ROUNDOFF, 32.0, at_the_rim);
 }
 
@@ -144,7 +144,7 @@ fn first_meeting_and_its_part_are_those_of_the_oracle() {
             skipped += 1;
             continue;
         }
-        let (hit, want) = (Filtered::cylinder(&r, &c), first(radius));
+        let (hit, want) = (Widened::cylinder(&r, &c), first(radius));
         assert_eq!(hit.mask && hit.t > r.t_min, want.is_some(), "{hit:?} {want:?} {c:?} {r:?}");
         if let Some((t, part)) = want {
             let code = [Part::Side, Part::FromCap, Part::ToCap].iter().position(|p| *p == part);
@@ -163,7 +163,7 @@ fn upright(capped: bool) -> Lanes<f32> {
 
 /// `(t, u, v)` as the caller sees it, which both versions must give.
 fn seen(r: &RayLanes<f32>, c: &Lanes<f32>) -> Option<[f32; 3]> {
-    let [a, b] = [solve(r, c), Filtered::cylinder(r, c)]
+    let [a, b] = [solve(r, c), Widened::cylinder(r, c)]
         .map(|h| t_of(h).filter(|t| r.t_min < *t && *t < r.t_max).map(|t| [t, h.u, h.v]));
     assert_eq!(a, b);
     a
@@ -245,8 +245,8 @@ fn continuing_from_the_first_hit_finds_the_second() {
         if far - near < 1e-3 * (far.abs() + near.abs()) {
             continue;
         }
-        let first = Filtered::cylinder(&r, &c).t;
-        let second = Filtered::cylinder(&RayLanes { t_min: first, ..r }, &c);
+        let first = Widened::cylinder(&r, &c).t;
+        let second = Widened::cylinder(&RayLanes { t_min: first, ..r }, &c);
         let reached = f64::from(second.t) > 0.5 * (near + far);
         assert!(second.mask && reached, "{first} then {} of {near} {far}", second.t);
     }
@@ -264,7 +264,7 @@ fn the_exact_tier_misses_a_wire_that_the_ray_passes() {
     );
     assert!(!exact::cylinder(&r, ends, wire.radius, 0.0));
     assert!(solve(&r, &wire).mask, "f64 alone is wrong here, or the case tells nothing");
-    assert!(!Filtered::cylinder(&r, &wire).mask, "made a hit of a wire that is passed");
+    assert!(!Widened::cylinder(&r, &wire).mask, "made a hit of a wire that is passed");
 }
 
 /// Found by the fuzz target `tiers`: the ray starts inside by less than a roundoff.
@@ -275,7 +275,7 @@ fn the_exact_tier_finds_a_side_just_ahead_of_the_start() {
         [[6.1875005, 5.3125005, 5.3125005], [6.1875005, 2.9802322e-8, 0.0]].map(|p| Vec3::splat(wide(p)));
     let c = Lanes { from: ends[0], to: ends[1], radius: f64::from(7.0625005f32), capped: true };
     let r = ray(wide([2.125, 0.0, 2.9802322e-8]), wide([8.000001, -29.999998, 1.1920929e-7]));
-    let hit = Filtered::cylinder(&r, &c);
+    let hit = Widened::cylinder(&r, &c);
     let want = 5.572884109553546e-18;
     assert!(hit.mask && (hit.t - want).abs() < 1e-9 * want, "{hit:?}");
 }
@@ -295,7 +295,7 @@ fn assert_decided(name: &str, case: fn(&mut Dice, &Lanes<f64>) -> [Vec3<f64>; 2]
         let [want, last] = oracle::surfaces(&line, &solid);
         counts[usize::from(want.is_some())] += 1;
         counts[2] += usize::from(solve(&r, &c).mask != want.is_some());
-        let got = Filtered::cylinder(&r, &c);
+        let got = Widened::cylinder(&r, &c);
         assert_eq!(got.mask, want.is_some(), "{name} decided by rounding: {c:?} by {r:?}");
         if let (Some(want), Some(last)) = (want, last) {
             let reach = want.abs().max(last.abs());
@@ -356,13 +356,13 @@ fn only_hits_beyond_the_limit_are_left_out() {
         let (r, c) = case(&mut dice);
         let c = Lanes { from: c.from.widen(), to: c.to.widen(), radius: c.radius.into(), capped: c.capped };
         let r = RayLanes { t_min: 0.0, ..r.widen() };
-        let hit = Filtered::cylinder(&r, &c);
+        let hit = Widened::cylinder(&r, &c);
         if !hit.mask || hit.t <= 0.0 {
             continue;
         }
         let off = [0.0, dice.magnitude(-17.0, -1.0)][dice.below(2)];
         let limit = hit.t * (1.0 + off);
-        let within = Filtered::cylinder_within(true, &r, &c, limit);
+        let within = !is_beyond(&r, &c, limit);
         assert!(within || hit.t > limit, "{hit:?} is not beyond {limit}: {c:?} by {r:?}");
         left_out += usize::from(!within);
     }

@@ -1,9 +1,9 @@
 //! Spheres against exact arithmetic, and the cases that defeat the textbook quadratic.
 
-use super::{Lanes, leaves, oracle, solve, surely_hits};
+use super::{Lanes, is_beyond, leaves, oracle, solve, surely_hits};
+use crate::intersect::curved::Widened;
 use crate::intersect::testing::dice::Dice;
 use crate::intersect::testing::{exact, line, percentile, ray, t_of, ulps};
-use crate::intersect::tier::Filtered;
 use crate::intersect::{Curved, LaneHit, RayLanes};
 use crate::math::{Real, Vec3};
 
@@ -47,7 +47,7 @@ fn assert_agrees(name: &str, solve: Solve, roundoff: f64, margin: f64, away: f64
 #[test]
 fn the_filtered_test_agrees_with_exact_arithmetic_near_and_far() {
     for away in [1.5, 10.0, 1e4] {
-        let p99 = assert_agrees("filtered", Filtered::sphere::<f32>, f64::ROUNDOFF, 16.0, away);
+        let p99 = assert_agrees("filtered", Widened::sphere::<f32>, f64::ROUNDOFF, 16.0, away);
         assert!(p99 <= 0.51, "{p99}");
     }
 }
@@ -87,7 +87,7 @@ fn a_ground_sphere_is_hit_where_it_is() {
         let p = dice.point();
         let r = ray([p[0] as f32, 1.0, p[2] as f32], [p[0] as f32, -0.1 - p[1].abs() as f32, p[2] as f32]);
         let [near, _] = exact::sphere(&r, ground.center, 1e6).expect("looking down");
-        let error = ulps(t_of(Filtered::sphere(&r, &ground)).expect("the ground"), near);
+        let error = ulps(t_of(Widened::sphere(&r, &ground)).expect("the ground"), near);
         assert!(error <= 1.0, "{error} ulp of {near}: {r:?}");
     }
 }
@@ -96,7 +96,7 @@ const UNIT: Lanes<f32> = Lanes { center: Vec3 { x: 0.0, y: 0.0, z: 0.0 }, radius
 
 /// `t` as the caller sees it, by both versions.
 fn both(r: &RayLanes<f32>, s: &Lanes<f32>) -> [Option<f32>; 2] {
-    [solve(r, s), Filtered::sphere(r, s)].map(|h| t_of(h).filter(|t| r.t_min < *t && *t < r.t_max))
+    [solve(r, s), Widened::sphere(r, s)].map(|h| t_of(h).filter(|t| r.t_min < *t && *t < r.t_max))
 }
 
 #[test]
@@ -146,7 +146,7 @@ fn continuing_from_the_near_side_finds_the_far_side() {
     for _ in 0..20_000 {
         let (r, s) = seen_from(&mut dice, 3.0);
         let Some([near, far]) = exact::sphere(&r, s.center, f64::from(s.radius) * 0.999) else { continue };
-        for solve in [solve::<f32> as Solve, Filtered::sphere::<f32>] {
+        for solve in [solve::<f32> as Solve, Widened::sphere::<f32>] {
             let first = solve(&r, &s).t;
             let second = solve(&RayLanes { t_min: first, ..r }, &s);
             let reached = f64::from(second.t) > 0.5 * (near + far);
@@ -171,7 +171,7 @@ fn the_exact_tier_decides_tangents_without_rounding() {
         let want = exact::sphere(&r, s.center, s.radius).is_some();
         counts[usize::from(want)] += 1;
         counts[2] += usize::from(solve(&r, &s).mask != want);
-        let got = Filtered::sphere(&r, &s).mask;
+        let got = Widened::sphere(&r, &s).mask;
         assert_eq!(got, want, "a tangent is decided by rounding: {s:?} by {r:?}");
     }
     assert!(counts.iter().all(|&n| n > 100), "misses, hits, and those that f64 gets wrong: {counts:?}");
@@ -199,13 +199,13 @@ fn only_hits_beyond_the_limit_are_left_out() {
     let mut left_out = 0;
     for _ in 0..50_000 {
         let (r, s) = past(&mut dice);
-        let hit = Filtered::sphere(&r, &s);
+        let hit = Widened::sphere(&r, &s);
         if !hit.mask || hit.t <= 0.0 {
             continue;
         }
         let off = [0.0, dice.magnitude(-17.0, -1.0)][dice.below(2)];
         let limit = hit.t * (1.0 + off);
-        let within = Filtered::sphere_within(true, &r, &s, limit);
+        let within = !is_beyond(&r, &s, limit);
         assert!(within || hit.t > limit, "{hit:?} is not beyond {limit}: {s:?} by {r:?}");
         left_out += usize::from(!within);
     }
@@ -220,7 +220,7 @@ fn what_surely_is_hit_is_hit_before_the_limit() {
     for _ in 0..50_000 {
         let (r, s) = past(&mut dice);
         let off = [0.0, 10.0, dice.magnitude(-8.0, -1.0)][dice.below(3)];
-        let hit = Filtered::sphere(&r, &s);
+        let hit = Widened::sphere(&r, &s);
         let limit = if hit.mask { hit.t * (1.0 + off) } else { [1e3, f64::INFINITY][dice.below(2)] };
         if surely_hits(&r, &s, limit) {
             sure[0] += 1;
@@ -234,7 +234,7 @@ fn what_surely_is_hit_is_hit_before_the_limit() {
             t_max: f32::INFINITY,
         };
         let s = Lanes { center: narrow(s.center), radius: s.radius as f32 };
-        let hit = Filtered::sphere(&r, &s);
+        let hit = Widened::sphere(&r, &s);
         let limit = if hit.mask { hit.t * (1.0 + off as f32) } else { f32::INFINITY };
         if surely_hits(&r, &s, limit) {
             sure[1] += 1;

@@ -3,7 +3,7 @@
 use super::dice::Dice;
 use super::{exact, line, ray};
 use crate::intersect::aabb::{CullRay, OwnBox};
-use crate::intersect::{Curved, RayLanes, cylinder, sphere, tier};
+use crate::intersect::{Curved, RayLanes, curved, cylinder, sphere};
 use crate::math::{Aabb, Real, Vec3};
 
 /// Triangles that are flat, tiny, huge or far, and rays that graze them or run in their planes.
@@ -164,7 +164,7 @@ fn the_f32_filters_reject_no_hit_of_f64() {
         let s = sphere::Lanes { center, radius };
         let wide =
             sphere::solve(&r.widen(), &sphere::Lanes { center: center.widen(), radius: radius.into() });
-        let kept = tier::Filtered::sphere(&r, &s);
+        let kept = curved::Widened::sphere(&r, &s);
         assert_kept("sphere", (wide.mask, wide.t), kept.mask, &mut counts[0], &(r, s));
 
         let long = radius * dice.magnitude(-3.0, 3.0).abs() as f32;
@@ -173,7 +173,7 @@ fn the_f32_filters_reject_no_hit_of_f64() {
         let double =
             cylinder::Lanes { from: center.widen(), to: to.widen(), radius: radius.into(), capped: c.capped };
         let wide = cylinder::solve(&r.widen(), &double);
-        let kept = tier::Filtered::cylinder(&r, &c);
+        let kept = curved::Widened::cylinder(&r, &c);
         assert_kept("cylinder", (wide.mask, wide.t), kept.mask, &mut counts[1], &(r, c));
     }
     assert!(counts.iter().all(|[misses, hits]| misses.min(hits) > &40_000), "{counts:?}");
@@ -201,7 +201,7 @@ fn the_filter_of_cylinders_keeps_tangents_across_axes() {
         let [from, to] = ends.map(Vec3::widen);
         let double = cylinder::Lanes { from, to, radius: f64::from(radius), capped: true };
         let wide = cylinder::solve(&r.widen(), &double);
-        let kept = tier::Filtered::cylinder(&r, &c);
+        let kept = curved::Widened::cylinder(&r, &c);
         assert_kept("cylinder", (wide.mask, wide.t), kept.mask, &mut counts, &(r, c));
     }
     assert!(counts.iter().all(|&n| n > 10_000), "{counts:?}");
@@ -225,7 +225,7 @@ fn the_filter_of_cylinders_keeps_wires_from_far_away() {
         let double =
             cylinder::Lanes { from: from.widen(), to: to.widen(), radius: radius.into(), capped: true };
         let wide = cylinder::solve(&r.widen(), &double);
-        let kept = tier::Filtered::cylinder(&r, &c);
+        let kept = curved::Widened::cylinder(&r, &c);
         assert_kept("cylinder", (wide.mask, wide.t), kept.mask, &mut counts, &(r, c));
     }
     assert!(counts[1] > 10_000, "{counts:?}");

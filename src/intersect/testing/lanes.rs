@@ -4,7 +4,7 @@ use proptest::prelude::*;
 use wide::{f32x8, f64x8};
 
 use crate::intersect::aabb::{CullRay, OwnBox};
-use crate::intersect::tier::{Direct, Filtered};
+use crate::intersect::curved::{Direct, Widened};
 use crate::intersect::triangle::{ExactVolumes, FilteredVolumes, MollerTrumbore, Woop};
 use crate::intersect::{Curved, LaneHit, RayLanes, TriangleTest, cylinder, plane, sphere};
 use crate::math::{Lane, Mask, Real, Vec3};
@@ -137,9 +137,9 @@ battery!(
     woop: Woop,
     exact_volumes: ExactVolumes,
     direct_sphere: Sphere<Direct>,
-    filtered_sphere: Sphere<Filtered>,
+    filtered_sphere: Sphere<Widened>,
     direct_cylinder: Cylinder<Direct>,
-    filtered_cylinder: Cylinder<Filtered>,
+    filtered_cylinder: Cylinder<Widened>,
     infinite_plane: Plane,
     own_box: Own,
     cull_ray: Cull,

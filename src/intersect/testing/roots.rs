@@ -2,7 +2,7 @@
 
 use super::dice::Dice;
 use super::ray;
-use crate::intersect::{Curved, LaneHit, RayLanes, cylinder, sphere, tier};
+use crate::intersect::{Curved, LaneHit, RayLanes, curved, cylinder, sphere};
 use crate::math::{Real, Vec3};
 
 /// Origins just outside of the unit circle across z, on a grid where `c` is exact, that look at its middle within 30
@@ -57,11 +57,11 @@ fn a_cylinder_in_f32_is_met_where_it_is_by_rays_from_its_surface() {
 /// As the tier `Exact` asks.
 #[test]
 fn a_sphere_in_f64_is_met_where_it_is_by_rays_from_its_surface() {
-    assert_near_roots::<f64>("sphere in f64", F64_CELLS, |r| tier::Filtered::sphere(r, &ball()));
+    assert_near_roots::<f64>("sphere in f64", F64_CELLS, |r| curved::Widened::sphere(r, &ball()));
 }
 
 /// As the tier `Exact` asks.
 #[test]
 fn a_cylinder_in_f64_is_met_where_it_is_by_rays_from_its_surface() {
-    assert_near_roots::<f64>("cylinder in f64", F64_CELLS, |r| tier::Filtered::cylinder(r, &rod()));
+    assert_near_roots::<f64>("cylinder in f64", F64_CELLS, |r| curved::Widened::cylinder(r, &rod()));
 }

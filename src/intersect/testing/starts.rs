@@ -7,8 +7,8 @@ use proptest::prelude::*;
 use proptest::sample::select;
 
 use super::ray;
+use crate::intersect::curved::Widened;
 use crate::intersect::oracle::{self, Line, Shape, surfaces};
-use crate::intersect::tier::Filtered;
 use crate::intersect::{Curved, LaneHit, RayLanes, cylinder, sphere};
 use crate::math::{Real, Vec3};
 
@@ -133,7 +133,7 @@ proptest! {
     #[test]
     fn what_is_ahead_of_a_ray_from_a_sphere_is_hit_and_nothing_else(start in starts(), at in on_circle()) {
         let (r, center, radius) = (start.ray_from([at[0], at[1], 0.0]), start.place([0.0; 3]), start.radius());
-        let hit = Filtered::sphere(&r, &sphere::Lanes { center: Vec3::splat(center), radius });
+        let hit = Widened::sphere(&r, &sphere::Lanes { center: Vec3::splat(center), radius });
         assert_right(&r, hit, &Shape::Sphere { center, radius })?;
     }
 
@@ -150,7 +150,7 @@ proptest! {
         let r = start.ray_from([at[0] * inwards, at[1] * inwards, height.min(end)]);
         let ([from, to], radius) = ([start.place([0.0; 3]), start.place([0.0, 0.0, end])], start.radius());
         let ends = [from, to].map(Vec3::splat);
-        let hit = Filtered::cylinder(&r, &cylinder::Lanes { from: ends[0], to: ends[1], radius, capped });
+        let hit = Widened::cylinder(&r, &cylinder::Lanes { from: ends[0], to: ends[1], radius, capped });
         assert_right(&r, hit, &Shape::Cylinder(oracle::Cylinder { from, to, radius, capped }))?;
     }
 }

@@ -21,7 +21,7 @@ use crate::accel::block::{RaysByPrimitive, Round};
 use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
 use crate::accel::query::Query;
 use crate::intersect::triangle::Glimpse;
-use crate::intersect::{Curved, Tier, TriangleTest};
+use crate::intersect::{Tier, TriangleTest};
 use crate::math::{BitLane, Lane, Mask, WIDTH, three};
 
 /// Pairs of packets and round primitives from which it pays to look at what the rays have in common: camera rays, and those for
@@ -203,7 +203,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
     #[inline(always)]
     fn find_likely<B: Testable>(&mut self, block: &B, edges: Option<&Edges>, mut count: usize) -> usize {
         let work = &mut *self.work;
-        let sifts = T::Curved::SIFTS && work.pairs.len() >= MANY_PAIRS[usize::from(Q::ANY)];
+        let sifts = work.pairs.len() >= MANY_PAIRS[usize::from(Q::ANY)];
         let rounds = block.round().filter(|_| sifts).map(|round| self.frustum.rounds(round));
         for k in 0..work.pairs.len() {
             let pair = Pair(work.pairs.get(k));
@@ -214,7 +214,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
                 (_, Some(rounds)) => self.frustum.may_hit(rounds, i, j),
                 // Prepared for nothing: that means nothing but to triangles.
                 _ => {
-                    let rays = TestRays { ray: &self.rays[j], triangle: &work.prepared[j] };
+                    let rays = TestRays { ray: &self.rays[j], triangle: Some(&work.prepared[j]) };
                     block.may_hit::<T, RaysByPrimitive>(i, &rays).bits()
                 }
             };
@@ -241,7 +241,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
                 Some(edges) if edges.large >> i & 1 != 0 => {
                     self.ask_by_edges((block, i), edges, j, Mask::from_bits(lanes))
                 }
-                None if T::Curved::SIFTS && !Q::ANY => self.ask_round((block, i), sight, j, lanes),
+                None if !Q::ANY => self.ask_round((block, i), sight, j, lanes),
                 _ => self.ask((block, i), j, Mask::from_bits(lanes)),
             };
             accepted |= u32::from(accepts) << j;
@@ -283,7 +283,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
             return self.ask((block, i), j, Mask::from_bits(lanes));
         };
         lanes &= self.frustum.reaching(sight, i, j, T::above_f32(self.queries[j].limit()));
-        let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
+        let rays = TestRays { ray: &self.rays[j], triangle: Some(&self.work.prepared[j]) };
         lanes != 0
             && self.work.pending[j].meet((block, i), Mask::from_bits(lanes), &rays, &mut self.queries[j])
     }
@@ -296,7 +296,7 @@ impl<T: Tier, Q: Query<T::Wide>> Bundle<'_, T, Q> {
             self.work.is_prepared |= 1 << j;
             self.work.prepared[j] = T::Triangle::prepare(&self.rays[j]);
         }
-        let rays = TestRays { ray: &self.rays[j], triangle: &self.work.prepared[j] };
+        let rays = TestRays { ray: &self.rays[j], triangle: Some(&self.work.prepared[j]) };
         if is_triangles && !T::Triangle::GLIMPSES {
             lanes = lanes & block.may_hit::<T, RaysByPrimitive>(i, &rays);
         }

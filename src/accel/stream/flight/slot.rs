@@ -6,14 +6,13 @@ use super::super::answers::Answers;
 use super::seeds::Seeds;
 use super::view::{Aim, TestRay, View, Views};
 use crate::accel::Accel;
-use crate::accel::block::PrimitivesByRay;
-use crate::accel::leaf::{BlockVisitor, TestRays, Testable, with_block};
+use crate::accel::leaf::Testable;
 use crate::accel::node::{ChildRef, Node8};
 use crate::accel::order::far_first;
 use crate::accel::query::Query;
 use crate::accel::unchecked::{self, Stacks};
 use crate::intersect::aabb::CullRay;
-use crate::intersect::{LaneHit, RayLanes, Tier, TriangleTest};
+use crate::intersect::{LaneHit, RayLanes, Tier};
 use crate::math::{Lane, Mask, Vec3, Wide, eight, three};
 
 /// A ray under way; what the node pass needs stands first, in one cache line.
@@ -138,46 +137,17 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Slot<T, Q> {
         self.aim.side.octant()
     }
 
-    /// Triangles of the leaf that is next that the ray may hit, as bits. **Needs:** a leaf of triangles.
+    /// Primitives of the leaf that is next that the ray may hit, as bits. **Needs:** a leaf of that kind.
     #[inline(always)]
-    pub(super) fn candidates(&self, accel: &Accel) -> u32 {
-        let corners = unchecked::triangles(accel, self.next).corner_columns();
-        T::Triangle::candidates::<T::Wide>(&self.ray(), &self.test.triangle, corners)
+    pub(super) fn candidates<B: Testable>(&self, accel: &Accel) -> u32 {
+        B::of(accel, self.next).candidates::<T>(&self.ray(), &self.test.triangle)
     }
 
-    /// Tests all of a leaf of anything but triangles; true if a hit was accepted.
-    pub(super) fn test_block(&mut self, accel: &Accel) -> bool {
-        with_block(accel, self.next, self)
-    }
-}
-
-/// Leaves of anything but triangles: eight at once.
-impl<T: Tier, Q: Query<T::Real>> BlockVisitor for Slot<T, Q> {
-    #[inline(never)]
-    fn visit<B: Testable>(&mut self, block: &B) -> bool {
-        let one = RayLanes::of_columns(self.test.ray);
-        let ray = RayLanes::splat(&one);
-        let rays = TestRays { triangle: &T::Triangle::prepare(&ray), ray: &ray };
-        let limit = T::Wide::splat(self.query.limit());
-        let lanes = block.may_hit::<T, PrimitivesByRay>(0, &rays) & block.there::<T>();
-        let lanes = if lanes.any() { block.ahead::<T, PrimitivesByRay>(0, lanes, &rays) } else { lanes };
-        if !lanes.any() {
-            return false;
-        }
-        if lanes.bits().is_power_of_two() {
-            // Most often it is one, and costs less alone.
-            let i = lanes.bits().trailing_zeros() as usize & 7;
-            let found = block.hit_one::<T>(i, &one, self.query.limit());
-            return self.query.accept(&one, &found, block.ids()[i]);
-        }
-        let hit: LaneHit<T::Wide> = block.hit::<T, PrimitivesByRay>(0, lanes, &rays, limit);
-        let (mut left, mut accepted) = (hit.mask.bits(), false);
-        while left != 0 {
-            let i = left.trailing_zeros() as usize;
-            left &= left - 1;
-            let found = LaneHit { mask: true, t: hit.t.get(i), u: hit.u.get(i), v: hit.v.get(i) };
-            accepted |= self.query.accept(&one, &found, block.ids()[i]);
-        }
-        accepted
+    /// Tests primitive `i` of that leaf, which the ray may hit; true if a hit is accepted.
+    #[inline(always)]
+    pub(super) fn test<B: Testable>(&mut self, accel: &Accel, i: usize) -> bool {
+        let block = B::of(accel, self.next);
+        let hit = block.hit_one::<T>(i, &self.ray(), self.query.limit());
+        self.accept(&hit, block.ids()[i])
     }
 }
