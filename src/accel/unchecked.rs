@@ -79,7 +79,7 @@ const LEAST_HUGE_BYTES: usize = 4 << 20;
 
 /// Makes room for exactly so many more elements, where those are many in huge pages if the system hands them out on
 /// request: rays that go anywhere then seldom wait for addresses to be translated.
-pub(super) fn reserve<T>(to: &mut Vec<T>, more: usize) {
+pub(in crate::accel) fn reserve<T>(to: &mut Vec<T>, more: usize) {
     to.reserve_exact(more);
     #[cfg(target_os = "linux")]
     {

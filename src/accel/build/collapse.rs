@@ -72,7 +72,7 @@ impl Fragment {
 
     fn push_leaf(&mut self, source: Source, child: usize) -> ChildRef {
         let BinaryNode { first, len, .. } = source.nodes[child];
-        let kind = source.items[first as usize].kind();
+        let kind = source.plans[child].kind();
         let leaves = &mut self.leaves[usize::from(kind)];
         leaves.push(Leaf { kind, len: len as u8, first });
         ChildRef::leaf(kind, leaves.len() as u32 - 1)

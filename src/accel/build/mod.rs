@@ -14,6 +14,7 @@
 
 mod binary;
 mod bins;
+mod box8;
 mod collapse;
 mod cut;
 mod item;
@@ -22,6 +23,7 @@ mod plan;
 mod price;
 mod reinsert;
 mod slab;
+mod small;
 mod spatial;
 mod split;
 #[cfg(test)]
@@ -30,6 +32,7 @@ mod tests;
 use rayon::prelude::*;
 
 use super::node::{ChildRef, Node8};
+use super::unchecked::reserve;
 use crate::math::{Aabb, WIDTH};
 use collapse::{Fragment, Source, collapse, moved};
 pub use cut::{Cuttable, Uncut};
@@ -142,6 +145,9 @@ impl Tree {
     ///
     /// **Panics** if an index leaves its 29 bits.
     pub fn offset(&mut self, by: &[u32; KINDS]) {
+        if *by == [0; KINDS] {
+            return;
+        }
         self.nodes.par_iter_mut().for_each(|node| *node = moved(*node, by));
     }
 }
@@ -149,8 +155,13 @@ impl Tree {
 /// The tree over some primitives; `triangles` tells those that may be cut.
 ///
 /// **Panics** if there are 2^29 primitives or more, or if a kind is not one of 1 to 6.
-pub fn build(primitives: &[BuildPrimitive], quality: Quality, triangles: &impl Cuttable) -> Tree {
-    assert!(primitives.len() < ChildRef::CAPACITY, "too many primitives for one tree");
+pub fn tree_over(
+    primitives: impl IndexedParallelIterator<Item = BuildPrimitive>,
+    quality: Quality,
+    triangles: &impl Cuttable,
+) -> Tree {
+    let count = primitives.len();
+    assert!(count < ChildRef::CAPACITY, "too many primitives for one tree");
     let mut items = items(primitives);
     let mut nodes;
     if spatial::cuts(&items, quality) {
@@ -165,7 +176,7 @@ pub fn build(primitives: &[BuildPrimitive], quality: Quality, triangles: &impl C
     }
     let Some(root) = nodes.first() else { return empty() };
     let bounds = root.bounds;
-    let plans = price::affordable_plans(&nodes, &items, primitives.len());
+    let plans = price::affordable_plans(&nodes, &items, count);
     let source = Source { nodes: &nodes, plans: &plans, items: &items };
     let Fragment { nodes, leaves, depth } = collapse(source, 0);
     let mut leaves = leaves.concat();
@@ -173,16 +184,25 @@ pub fn build(primitives: &[BuildPrimitive], quality: Quality, triangles: &impl C
     Tree { nodes, order, leaves, max_depth: depth, bounds }
 }
 
+/// [`tree_over`] a list.
+#[cfg(test)]
+pub fn build(primitives: &[BuildPrimitive], quality: Quality, triangles: &impl Cuttable) -> Tree {
+    tree_over(primitives.par_iter().copied(), quality, triangles)
+}
+
 fn empty() -> Tree {
     Tree { nodes: vec![Node8::EMPTY], leaves: vec![], order: vec![], max_depth: 1, bounds: Aabb::EMPTY }
 }
 
-fn items(primitives: &[BuildPrimitive]) -> Vec<Item> {
-    let item = |(number, primitive): (usize, &BuildPrimitive)| {
+fn items(primitives: impl IndexedParallelIterator<Item = BuildPrimitive>) -> Vec<Item> {
+    let item = |(number, primitive): (usize, BuildPrimitive)| {
         assert!((1..=ChildRef::LAST_KIND).contains(&primitive.kind), "kind {} is no kind", primitive.kind);
-        Item::new(number as u32, primitive)
+        Item::new(number as u32, &primitive)
     };
-    primitives.par_iter().enumerate().with_min_len(GRAIN).map(item).collect()
+    let mut items = Vec::new();
+    reserve(&mut items, primitives.len());
+    items.par_extend(primitives.enumerate().with_min_len(GRAIN).map(item));
+    items
 }
 
 /// The numbers in the order of the items, sorted within each leaf. A leaf that got two parts of one triangle keeps one,
@@ -191,14 +211,56 @@ fn order(items: &[Item], leaves: &mut [Leaf]) -> Vec<u32> {
     let mut order: Vec<u32> = items.par_iter().with_min_len(GRAIN).map(Item::number).collect();
     for leaf in leaves {
         let numbers = &mut order[leaf.first as usize..][..usize::from(leaf.len)];
-        numbers.sort_unstable();
+        sort(numbers);
         leaf.len = dedup(numbers) as u8;
     }
     order
 }
 
+/// Pairs of places that sort eight when they are put in order one after the other.
+///
+/// **Source:** Knuth, "The Art of Computer Programming", volume 3, section 5.3.4: Batcher's sorting network.
+const NETWORK: [[usize; 2]; 19] = [
+    [0, 4],
+    [1, 5],
+    [2, 6],
+    [3, 7],
+    [0, 2],
+    [1, 3],
+    [4, 6],
+    [5, 7],
+    [2, 4],
+    [3, 5],
+    [0, 1],
+    [2, 3],
+    [4, 5],
+    [6, 7],
+    [1, 4],
+    [3, 6],
+    [1, 2],
+    [3, 4],
+    [5, 6],
+];
+
+/// Sorts the numbers of a leaf; without a branch, for no two leaves are alike.
+fn sort(numbers: &mut [u32]) {
+    let mut places = [u32::MAX; LEAF_SIZE];
+    for (place, &number) in places.iter_mut().zip(&*numbers) {
+        *place = number;
+    }
+    for [a, b] in NETWORK {
+        (places[a], places[b]) = (places[a].min(places[b]), places[a].max(places[b]));
+    }
+    for (number, place) in numbers.iter_mut().zip(places) {
+        *number = place;
+    }
+}
+
 /// Moves the first of each run of equals to the front; gives how many there are.
 fn dedup(sorted: &mut [u32]) -> usize {
+    if sorted.windows(2).all(|pair| pair[0] != pair[1]) {
+        return sorted.len();
+    }
     let mut kept = 0;
     for i in 0..sorted.len() {
         if kept == 0 || sorted[i] != sorted[kept - 1] {

@@ -35,6 +35,11 @@ impl Plan {
         self.left[0] == 0
     }
 
+    /// The kind of a leaf.
+    pub(super) fn kind(&self) -> u8 {
+        self.kind
+    }
+
     /// Bytes of the block of a leaf, where they count.
     pub(super) fn block_bytes(&self) -> usize {
         BLOCK_BYTES[usize::from(self.kind)]

@@ -15,7 +15,8 @@ mod tests;
 use rayon::prelude::*;
 
 use super::binary::BinaryNode;
-use super::item::{Box4, Item};
+use super::box8::Box8;
+use super::item::Item;
 use linked::{Linked, sibling};
 
 /// Shares of the nodes, largest first, that look for a better place: in the first round, which tells whether the tree is one
@@ -102,7 +103,7 @@ fn largest(tree: &Linked, count: usize) -> (Vec<u32>, f64) {
     (nodes.into_iter().map(|(_, at)| at).collect(), all)
 }
 
-fn price_of_overlap(a: Box4, b: Box4) -> f64 {
+fn price_of_overlap(a: Box8, b: Box8) -> f64 {
     let shared = a.intersection(b);
     if shared.is_empty() { 0.0 } else { OVERLAP * shared.half_area() }
 }
@@ -110,7 +111,7 @@ fn price_of_overlap(a: Box4, b: Box4) -> f64 {
 /// The search for the best place of a subtree: beside each node on the way up, and below.
 struct Search<'a> {
     tree: &'a Linked,
-    moved: Box4,
+    moved: Box8,
     area: f64,
     best: Move,
     visits: usize,

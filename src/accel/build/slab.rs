@@ -5,8 +5,9 @@
 //! centre is.
 
 use super::bins::Side;
+use super::box8::Box8;
 use super::cut::{Cuttable, Sweep};
-use super::item::{Box4, Extent, Item, reduce};
+use super::item::{Extent, Item, reduce};
 
 /// Most bins on an axis, and bins for ranges in which nearly every triangle would reach across several of so many.
 const MANY: usize = 16;
@@ -36,8 +37,8 @@ struct Grid {
 
 impl Grid {
     /// `None` where there is nothing to cut.
-    fn new(bounds: &Box4, axis: usize, bins: usize) -> Option<Self> {
-        let (start, end) = (bounds.lo.to_array()[axis], bounds.hi.to_array()[axis]);
+    fn new(bounds: &Box8, axis: usize, bins: usize) -> Option<Self> {
+        let [start, end] = bounds.along(axis);
         let (step, bins_a_unit) = ((end - start) / bins as f32, bins as f32 / (end - start));
         let apart = start + step > start && end - step < end;
         let usable = step.is_normal() && bins_a_unit.is_normal() && apart;
@@ -55,7 +56,7 @@ impl Grid {
 /// What is in a bin, and how many begin and end there.
 #[derive(Clone, Copy)]
 struct Bin {
-    bounds: Box4,
+    bounds: Box8,
     enter: u32,
     exit: u32,
 }
@@ -67,7 +68,7 @@ pub(super) fn best_slab(items: &[Item], extent: &Extent, triangles: &impl Cuttab
     let bins = if items.len() < FEW_ITEMS { FEW } else { MANY };
     let grids = [0, 1, 2].map(|axis| Grid::new(&extent.bounds, axis, bins));
     let run = |run: &[Item]| {
-        let mut bins = [[Bin { bounds: Box4::EMPTY, enter: 0, exit: 0 }; MANY]; 3];
+        let mut bins = [[Bin { bounds: Box8::EMPTY, enter: 0, exit: 0 }; MANY]; 3];
         run.iter().for_each(|item| put(&mut bins, &grids, item, triangles));
         bins
     };
@@ -87,10 +88,9 @@ fn join(mut a: Bins, b: Bins) -> Bins {
 
 /// Puts an item into the bins of each axis, cut by the planes between them.
 fn put(bins: &mut Bins, grids: &[Option<Grid>; 3], item: &Item, triangles: &impl Cuttable) {
-    let (lo, hi) = (item.bounds.lo.to_array(), item.bounds.hi.to_array());
     for (grid, bins) in grids.iter().zip(bins) {
         let Some(grid) = grid else { continue };
-        let (lo, hi) = (lo[grid.axis], hi[grid.axis]);
+        let [lo, hi] = item.bounds.along(grid.axis);
         let (first, last) = (grid.bin(lo), grid.bin(hi));
         if first == last {
             put_whole(&mut bins[first], item);
@@ -162,7 +162,7 @@ impl Slab {
     }
 
     fn sides(&mut self, item: &Item, triangles: &impl Cuttable) -> [Option<Item>; 2] {
-        let (lo, hi) = (item.bounds.lo.to_array()[self.axis], item.bounds.hi.to_array()[self.axis]);
+        let [lo, hi] = item.bounds.along(self.axis);
         if hi <= self.at {
             return [Some(*item), None];
         }

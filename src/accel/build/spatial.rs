@@ -6,7 +6,7 @@
 use super::binary::{self, BinaryNode};
 use super::bins::best_cut_and_overlap;
 use super::cut::Cuttable;
-use super::item::{Extent, Item};
+use super::item::{Extent, Item, Parted};
 use super::slab::best_slab;
 use super::split::{halvings, part_by};
 use super::{MAX_DEPTH, Quality};
@@ -114,7 +114,7 @@ impl<C: Cuttable> Grower<'_, C> {
         if let Some(sides) = worth.and_then(|cut| self.part_space(&items, extent, budget, cut.cost)) {
             return sides;
         }
-        let middle = part_by(&mut items, extent, cut);
+        let Parted { middle, .. } = part_by(&mut items, extent, cut);
         let high = items.split_off(middle);
         [items, high]
     }

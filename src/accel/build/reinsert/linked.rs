@@ -2,12 +2,13 @@
 
 use super::super::MAX_DEPTH;
 use super::super::binary::{self, BinaryNode};
-use super::super::item::{Box4, Item};
+use super::super::box8::Box8;
+use super::super::item::Item;
 
 /// A node. Siblings stand side by side, the first at an odd place; the root is at 0.
 #[derive(Clone, Copy)]
 struct LinkedNode {
-    bounds: Box4,
+    bounds: Box8,
     /// The first child; 0 for a leaf.
     below: u32,
     /// Where a leaf is in the tree as it came.
@@ -34,7 +35,7 @@ impl Linked {
     /// `None` if there are no nodes.
     pub(super) fn of(tree: &[BinaryNode]) -> Option<Self> {
         let node =
-            |leaf: usize| LinkedNode { bounds: Box4::of(&tree[leaf].bounds), below: 0, leaf: leaf as u32 };
+            |leaf: usize| LinkedNode { bounds: Box8::of(&tree[leaf].bounds), below: 0, leaf: leaf as u32 };
         let root = (!tree.is_empty()).then(|| node(0))?;
         let (mut nodes, mut parents) = (Vec::with_capacity(tree.len()), Vec::with_capacity(tree.len() / 2));
         nodes.push(root);
@@ -57,7 +58,7 @@ impl Linked {
         self.nodes.len()
     }
 
-    pub(super) fn bounds(&self, at: u32) -> Box4 {
+    pub(super) fn bounds(&self, at: u32) -> Box8 {
         self.nodes[at as usize].bounds
     }
 

@@ -32,7 +32,7 @@ fn grown(primitives: &[BuildPrimitive]) -> (Vec<BinaryNode>, Vec<Item>) {
 fn check(nodes: &[BinaryNode], items: &[Item], at: usize) -> u32 {
     let node = &nodes[at];
     let range = &items[node.first as usize..][..node.len as usize];
-    let around = range.iter().fold(Box4::EMPTY, |all, item| all.join(item.bounds)).to_aabb();
+    let around = range.iter().fold(Box8::EMPTY, |all, item| all.join(item.bounds)).to_aabb();
     assert_eq!(around, node.bounds);
     if node.right == 0 {
         return 0;
