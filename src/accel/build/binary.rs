@@ -24,13 +24,19 @@ impl BinaryNode {
     }
 }
 
-/// The nodes over all items, which end up in the order of the leaves; empty without items.
-pub(super) fn grow(items: &mut [Item], quality: Quality) -> Vec<BinaryNode> {
-    if items.is_empty() {
-        return Vec::new();
-    }
-    let extent = Extent::of(items);
-    grow_shared(items, &extent, Place::default(), quality).concat()
+/// The nodes over all items, of which there are some, and which end up in the order of the leaves.
+pub(super) fn grow(items: &mut [Item], extent: &Extent, quality: Quality) -> Vec<BinaryNode> {
+    grow_shared(items, extent, Place::default(), quality).concat()
+}
+
+/// [`grow`] for a range that is parted already.
+pub(super) fn grow_parted(
+    items: &mut [Item],
+    extent: &Extent,
+    parted: Parted,
+    quality: Quality,
+) -> Vec<BinaryNode> {
+    grow_sides(items, extent, parted, Place::default(), quality).concat()
 }
 
 /// Appends the nodes over a range; ranges count from 0.
@@ -67,10 +73,21 @@ fn grow_shared(items: &mut [Item], extent: &Extent, place: Place, quality: Quali
         grow_alone(items, extent, place, quality, &mut nodes);
         return vec![nodes];
     }
+    match split(items, extent, place.depth, quality) {
+        Some(parted) => grow_sides(items, extent, parted, place, quality),
+        None => vec![vec![BinaryNode::leaf(extent, place.first, items.len())]],
+    }
+}
+
+/// The nodes over a range that was parted.
+fn grow_sides(
+    items: &mut [Item],
+    extent: &Extent,
+    Parted { middle, sides }: Parted,
+    place: Place,
+    quality: Quality,
+) -> Vec<Vec<BinaryNode>> {
     let mut node = BinaryNode::leaf(extent, place.first, items.len());
-    let Some(Parted { middle, sides }) = split(items, extent, place.depth, quality) else {
-        return vec![vec![node]];
-    };
     let (left, right) = items.split_at_mut(middle);
     let below = place.below(middle);
     let (left, right) = rayon::join(

@@ -22,6 +22,12 @@ const KIND: usize = 7;
 pub(super) const XYZ: f32x4 =
     f32x4::new([f32::from_bits(u32::MAX), f32::from_bits(u32::MAX), f32::from_bits(u32::MAX), 0.0]);
 
+/// All lanes of a box but the free ones.
+pub(super) const XYZXYZ: f32x8 = {
+    let all = f32::from_bits(u32::MAX);
+    f32x8::new([all, all, all, 0.0, all, all, all, 0.0])
+};
+
 impl Item {
     /// Nowhere.
     pub(super) const NOTHING: Self = Self { bounds: Box8::EMPTY };

@@ -36,7 +36,7 @@ use super::unchecked::reserve;
 use crate::math::{Aabb, WIDTH};
 use collapse::{Fragment, Source, collapse, moved};
 pub use cut::{Cuttable, Uncut};
-use item::{GRAIN, Item};
+use item::{Extent, GRAIN, Item};
 
 /// Most primitives in a leaf: what one block holds.
 pub const LEAF_SIZE: usize = WIDTH;
@@ -163,13 +163,18 @@ pub fn tree_over(
     let count = primitives.len();
     assert!(count < ChildRef::CAPACITY, "too many primitives for one tree");
     let mut items = items(primitives);
-    let mut nodes;
-    if spatial::cuts(&items, quality) {
-        let budget = (items.len() as f64 * EXTRA_SHARE) as usize;
-        let budget = budget.min(ChildRef::CAPACITY - 1 - items.len());
-        (nodes, items) = spatial::grow(items, budget, quality, triangles);
-    } else {
-        nodes = binary::grow(&mut items, quality);
+    let budget = (items.len() as f64 * EXTRA_SHARE) as usize;
+    let budget = budget.min(ChildRef::CAPACITY - 1 - items.len());
+    let mut nodes = Vec::new();
+    if !items.is_empty() {
+        (nodes, items) = match quality {
+            Quality::Fast => {
+                let extent = Extent::of(&items);
+                (binary::grow(&mut items, &extent, quality), items)
+            }
+            Quality::Balanced => spatial::grow_balanced(items, budget, triangles),
+            Quality::High => spatial::grow(items, budget, triangles),
+        };
     }
     if quality != Quality::Fast {
         (nodes, items) = reinsert::reinsert(nodes, items);

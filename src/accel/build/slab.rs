@@ -4,10 +4,12 @@
 //! Changed: a side costs its leaf blocks, as in [`super::bins`]; what is no triangle is not cut and goes where its
 //! centre is.
 
+use wide::f32x8;
+
 use super::bins::Side;
 use super::box8::Box8;
 use super::cut::{Cuttable, Sweep};
-use super::item::{Extent, Item, reduce};
+use super::item::{Extent, Item, XYZXYZ, reduce};
 
 /// Most bins on an axis, and bins for ranges in which nearly every triangle would reach across several of so many.
 const MANY: usize = 16;
@@ -63,14 +65,46 @@ struct Bin {
 
 type Bins = [[Bin; MANY]; 3];
 
+/// From coordinates to bins, by axis: least coordinates, and greatest with the sign turned.
+struct Spread {
+    start: f32x8,
+    bins_a_unit: f32x8,
+    last: f32x8,
+}
+
+impl Spread {
+    fn new(grids: &[Option<Grid>; 3], bins: usize) -> Self {
+        let of = |value: fn(&Grid) -> f32| grids.each_ref().map(|grid| grid.as_ref().map_or(0.0, value));
+        let ([a, b, c], [d, e, f]) = (of(|grid| grid.start), of(|grid| grid.bins_a_unit));
+        Self {
+            start: f32x8::new([a, b, c, 0.0, -a, -b, -c, 0.0]),
+            bins_a_unit: f32x8::new([d, e, f, 0.0, -d, -e, -f, 0.0]),
+            last: f32x8::splat((bins - 1) as f32),
+        }
+    }
+
+    /// As [`Grid::bin`] of both ends of an item on each axis; an axis without a grid has one bin.
+    #[inline(always)]
+    fn ends(&self, item: &Item) -> [[usize; 4]; 2] {
+        let place = (item.bounds.0 & XYZXYZ) - self.start;
+        let place = (place * self.bins_a_unit).fast_max(f32x8::ZERO).fast_min(self.last);
+        let bins: [[i32; 4]; 2] = bytemuck::cast(place.fast_trunc_int());
+        bins.map(|bins| bins.map(|bin| bin as usize % MANY))
+    }
+}
+
 /// The best plane through a range; `None` if none has items on both sides.
 pub(super) fn best_slab(items: &[Item], extent: &Extent, triangles: &impl Cuttable) -> Option<Slab> {
-    let bins = if items.len() < FEW_ITEMS { FEW } else { MANY };
-    let grids = [0, 1, 2].map(|axis| Grid::new(&extent.bounds, axis, bins));
+    let count = if items.len() < FEW_ITEMS { FEW } else { MANY };
+    let grids = [0, 1, 2].map(|axis| Grid::new(&extent.bounds, axis, count));
+    let spread = Spread::new(&grids, count);
+    // Two sets of bins: see `bins`.
     let run = |run: &[Item]| {
-        let mut bins = [[Bin { bounds: Box8::EMPTY, enter: 0, exit: 0 }; MANY]; 3];
-        run.iter().for_each(|item| put(&mut bins, &grids, item, triangles));
-        bins
+        let mut sets = [[[Bin { bounds: Box8::EMPTY, enter: 0, exit: 0 }; MANY]; 3]; 2];
+        for (i, item) in run.iter().enumerate() {
+            put(&mut sets[i & 1], &grids, &spread, item, triangles);
+        }
+        join(sets[0], sets[1])
     };
     let bins = reduce(items, &run, &join);
     let best = grids.iter().zip(&bins).filter_map(|(grid, bins)| best_on(grid.as_ref()?, bins));
@@ -87,23 +121,39 @@ fn join(mut a: Bins, b: Bins) -> Bins {
 }
 
 /// Puts an item into the bins of each axis, cut by the planes between them.
-fn put(bins: &mut Bins, grids: &[Option<Grid>; 3], item: &Item, triangles: &impl Cuttable) {
-    for (grid, bins) in grids.iter().zip(bins) {
+#[inline(always)]
+fn put(bins: &mut Bins, grids: &[Option<Grid>; 3], spread: &Spread, item: &Item, triangles: &impl Cuttable) {
+    let [first, last] = spread.ends(item);
+    if first[..3] == last[..3] {
+        // Most items are small.
+        return bins.iter_mut().zip(first).for_each(|(bins, bin)| put_whole(&mut bins[bin], item));
+    }
+    for (axis, (grid, bins)) in grids.iter().zip(bins).enumerate() {
         let Some(grid) = grid else { continue };
-        let [lo, hi] = item.bounds.along(grid.axis);
-        let (first, last) = (grid.bin(lo), grid.bin(hi));
-        if first == last {
-            put_whole(&mut bins[first], item);
-        } else if let Some(corners) = triangles.corners(item.number()) {
-            put_parts(&mut bins[first..=last], &Sweep::new(corners, grid.axis), item, |i| {
-                if i == 0 { lo } else { grid.plane(first + i).min(hi) }
-            });
-        } else {
-            put_whole(&mut bins[grid.bin(0.5 * lo + 0.5 * hi)], item);
-        }
+        put_across(bins, grid, [first[axis], last[axis]], item, triangles);
     }
 }
 
+fn put_across(
+    bins: &mut [Bin; MANY],
+    grid: &Grid,
+    [first, last]: [usize; 2],
+    item: &Item,
+    triangles: &impl Cuttable,
+) {
+    let [lo, hi] = item.bounds.along(grid.axis);
+    if first == last {
+        put_whole(&mut bins[first], item);
+    } else if let Some(corners) = triangles.corners(item.number()) {
+        put_parts(&mut bins[first..=last], &Sweep::new(corners, grid.axis), item, |i| {
+            if i == 0 { lo } else { grid.plane(first + i).min(hi) }
+        });
+    } else {
+        put_whole(&mut bins[grid.bin(0.5 * lo + 0.5 * hi)], item);
+    }
+}
+
+#[inline(always)]
 fn put_whole(bin: &mut Bin, item: &Item) {
     bin.bounds = bin.bounds.join(item.bounds);
     bin.enter += 1;

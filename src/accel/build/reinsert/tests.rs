@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::super::binary::grow;
+use super::super::item::Extent;
 use super::super::tests::{cube, unit};
 use super::super::{BuildPrimitive, MAX_DEPTH, Quality};
 use super::*;
@@ -25,7 +26,8 @@ fn items(primitives: &[BuildPrimitive]) -> Vec<Item> {
 
 fn grown(primitives: &[BuildPrimitive]) -> (Vec<BinaryNode>, Vec<Item>) {
     let mut items = items(primitives);
-    (grow(&mut items, Quality::Balanced), items)
+    let extent = Extent::of(&items);
+    (grow(&mut items, &extent, Quality::Balanced), items)
 }
 
 /// What holds of a binary tree in depth-first order; gives the depth.
