@@ -33,6 +33,10 @@ impl Cuttable for GroupTriangles<'_> {
         let n = primitive as usize;
         (n < self.rows.len()).then(|| self.triangles.corners(self.rows.start + n))
     }
+    #[inline]
+    fn is_cuttable(&self, primitive: u32) -> bool {
+        (primitive as usize) < self.rows.len()
+    }
 }
 
 /// Primitives of a group in one numbering: kinds one after the other.

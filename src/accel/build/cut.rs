@@ -19,6 +19,10 @@ use crate::math::gamma;
 pub trait Cuttable: Sync {
     /// The corners of a primitive if it is a triangle; nothing else is cut.
     fn corners(&self, primitive: u32) -> Option<[[f32; 3]; 3]>;
+    /// True if it is one.
+    fn is_cuttable(&self, primitive: u32) -> bool {
+        self.corners(primitive).is_some()
+    }
 }
 
 /// Nothing is cut.

@@ -4,12 +4,13 @@
 //! Changed: a side costs its leaf blocks, as in [`super::bins`]; what is no triangle is not cut and goes where its
 //! centre is.
 
-use wide::f32x8;
+mod grid;
 
 use super::bins::Side;
 use super::box8::Box8;
 use super::cut::{Cuttable, Sweep};
-use super::item::{Extent, Item, XYZXYZ, reduce};
+use super::item::{Extent, Item, reduce};
+use grid::{Grid, Spread};
 
 /// Most bins on an axis, and bins for ranges in which nearly every triangle would reach across several of so many.
 const MANY: usize = 16;
@@ -27,34 +28,6 @@ pub(super) struct Slab {
     high: Side,
 }
 
-/// The planes between bins of an axis.
-#[derive(Clone, Copy)]
-struct Grid {
-    axis: usize,
-    bins: usize,
-    start: f32,
-    step: f32,
-    bins_a_unit: f32,
-}
-
-impl Grid {
-    /// `None` where there is nothing to cut.
-    fn new(bounds: &Box8, axis: usize, bins: usize) -> Option<Self> {
-        let [start, end] = bounds.along(axis);
-        let (step, bins_a_unit) = ((end - start) / bins as f32, bins as f32 / (end - start));
-        let apart = start + step > start && end - step < end;
-        let usable = step.is_normal() && bins_a_unit.is_normal() && apart;
-        usable.then_some(Self { axis, bins, start, step, bins_a_unit })
-    }
-    /// The plane below a bin.
-    fn plane(&self, bin: usize) -> f32 {
-        self.start + self.step * bin as f32
-    }
-    fn bin(&self, place: f32) -> usize {
-        (((place - self.start) * self.bins_a_unit) as usize).min(self.bins - 1)
-    }
-}
-
 /// What is in a bin, and how many begin and end there.
 #[derive(Clone, Copy)]
 struct Bin {
@@ -65,50 +38,46 @@ struct Bin {
 
 type Bins = [[Bin; MANY]; 3];
 
-/// From coordinates to bins, by axis: least coordinates, and greatest with the sign turned.
-struct Spread {
-    start: f32x8,
-    bins_a_unit: f32x8,
-    last: f32x8,
-}
-
-impl Spread {
-    fn new(grids: &[Option<Grid>; 3], bins: usize) -> Self {
-        let of = |value: fn(&Grid) -> f32| grids.each_ref().map(|grid| grid.as_ref().map_or(0.0, value));
-        let ([a, b, c], [d, e, f]) = (of(|grid| grid.start), of(|grid| grid.bins_a_unit));
-        Self {
-            start: f32x8::new([a, b, c, 0.0, -a, -b, -c, 0.0]),
-            bins_a_unit: f32x8::new([d, e, f, 0.0, -d, -e, -f, 0.0]),
-            last: f32x8::splat((bins - 1) as f32),
-        }
-    }
-
-    /// As [`Grid::bin`] of both ends of an item on each axis; an axis without a grid has one bin.
-    #[inline(always)]
-    fn ends(&self, item: &Item) -> [[usize; 4]; 2] {
-        let place = (item.bounds.0 & XYZXYZ) - self.start;
-        let place = (place * self.bins_a_unit).fast_max(f32x8::ZERO).fast_min(self.last);
-        let bins: [[i32; 4]; 2] = bytemuck::cast(place.fast_trunc_int());
-        bins.map(|bins| bins.map(|bin| bin as usize % MANY))
-    }
+/// How planes cut what is put into bins.
+#[derive(Clone, Copy)]
+pub(super) enum Parts {
+    /// Boxes of the parts of triangles.
+    Triangles,
+    /// Parts of the boxes of triangles, which are found faster and no smaller. For the first cut of all, with many more items on
+    /// either side than are cut, they choose the same plane.
+    Boxes,
 }
 
 /// The best plane through a range; `None` if none has items on both sides.
-pub(super) fn best_slab(items: &[Item], extent: &Extent, triangles: &impl Cuttable) -> Option<Slab> {
+pub(super) fn best_slab(
+    items: &[Item],
+    extent: &Extent,
+    parts: Parts,
+    triangles: &impl Cuttable,
+) -> Option<Slab> {
     let count = if items.len() < FEW_ITEMS { FEW } else { MANY };
     let grids = [0, 1, 2].map(|axis| Grid::new(&extent.bounds, axis, count));
-    let spread = Spread::new(&grids, count);
-    // Two sets of bins: see `bins`.
+    let bins = match parts {
+        Parts::Triangles => filled(items, |bins, item| put(bins, &grids, item, triangles)),
+        Parts::Boxes => {
+            let layers = Layers::new(&grids, count);
+            filled(items, |bins, item| layers.put(bins, &grids, item, triangles))
+        }
+    };
+    let best = grids.iter().zip(&bins).filter_map(|(grid, bins)| best_on(grid.as_ref()?, bins));
+    best.reduce(|a, b| if b.cost < a.cost { b } else { a })
+}
+
+/// Bins with all items, which take turns between two sets of them as in [`super::bins`].
+fn filled(items: &[Item], put: impl Fn(&mut Bins, &Item) + Sync) -> Bins {
     let run = |run: &[Item]| {
         let mut sets = [[[Bin { bounds: Box8::EMPTY, enter: 0, exit: 0 }; MANY]; 3]; 2];
         for (i, item) in run.iter().enumerate() {
-            put(&mut sets[i & 1], &grids, &spread, item, triangles);
+            put(&mut sets[i & 1], item);
         }
         join(sets[0], sets[1])
     };
-    let bins = reduce(items, &run, &join);
-    let best = grids.iter().zip(&bins).filter_map(|(grid, bins)| best_on(grid.as_ref()?, bins));
-    best.reduce(|a, b| if b.cost < a.cost { b } else { a })
+    reduce(items, &run, &join)
 }
 
 fn join(mut a: Bins, b: Bins) -> Bins {
@@ -121,35 +90,51 @@ fn join(mut a: Bins, b: Bins) -> Bins {
 }
 
 /// Puts an item into the bins of each axis, cut by the planes between them.
-#[inline(always)]
-fn put(bins: &mut Bins, grids: &[Option<Grid>; 3], spread: &Spread, item: &Item, triangles: &impl Cuttable) {
-    let [first, last] = spread.ends(item);
-    if first[..3] == last[..3] {
-        // Most items are small.
-        return bins.iter_mut().zip(first).for_each(|(bins, bin)| put_whole(&mut bins[bin], item));
-    }
-    for (axis, (grid, bins)) in grids.iter().zip(bins).enumerate() {
+fn put(bins: &mut Bins, grids: &[Option<Grid>; 3], item: &Item, triangles: &impl Cuttable) {
+    for (grid, bins) in grids.iter().zip(bins) {
         let Some(grid) = grid else { continue };
-        put_across(bins, grid, [first[axis], last[axis]], item, triangles);
+        let [lo, hi] = item.bounds.along(grid.axis);
+        let (first, last) = (grid.bin(lo), grid.bin(hi));
+        if first == last {
+            put_whole(&mut bins[first], item);
+        } else if let Some(corners) = triangles.corners(item.number()) {
+            put_parts(&mut bins[first..=last], &Sweep::new(corners, grid.axis), item, |i| {
+                if i == 0 { lo } else { grid.plane(first + i).min(hi) }
+            });
+        } else {
+            put_whole(&mut bins[grid.bin(0.5 * lo + 0.5 * hi)], item);
+        }
     }
 }
 
-fn put_across(
-    bins: &mut [Bin; MANY],
-    grid: &Grid,
-    [first, last]: [usize; 2],
-    item: &Item,
-    triangles: &impl Cuttable,
-) {
-    let [lo, hi] = item.bounds.along(grid.axis);
-    if first == last {
-        put_whole(&mut bins[first], item);
-    } else if let Some(corners) = triangles.corners(item.number()) {
-        put_parts(&mut bins[first..=last], &Sweep::new(corners, grid.axis), item, |i| {
-            if i == 0 { lo } else { grid.plane(first + i).min(hi) }
-        });
-    } else {
-        put_whole(&mut bins[grid.bin(0.5 * lo + 0.5 * hi)], item);
+/// What the bins of each axis hold, and how to find them.
+struct Layers {
+    spread: Spread,
+    layers: [[Box8; MANY]; 3],
+}
+
+impl Layers {
+    fn new(grids: &[Option<Grid>; 3], bins: usize) -> Self {
+        let layers =
+            grids.map(|grid| std::array::from_fn(|bin| grid.map_or(Box8::EMPTY, |grid| grid.layer(bin))));
+        Self { spread: Spread::new(grids, bins), layers }
+    }
+
+    /// Puts the parts of the box of an item into the bins of each axis.
+    #[inline(always)]
+    fn put(&self, bins: &mut Bins, grids: &[Option<Grid>; 3], item: &Item, triangles: &impl Cuttable) {
+        let [first, last] = self.spread.ends(item);
+        if !triangles.is_cuttable(item.number()) {
+            return put(bins, grids, item, triangles);
+        }
+        for ((axis, bins), layers) in bins.iter_mut().enumerate().zip(&self.layers) {
+            let (first, last) = (first[axis], last[axis]);
+            for (bin, &layer) in bins[first..=last].iter_mut().zip(&layers[first..=last]) {
+                bin.bounds = bin.bounds.join(item.bounds.intersection(layer));
+            }
+            bins[first].enter += 1;
+            bins[last].exit += 1;
+        }
     }
 }
 

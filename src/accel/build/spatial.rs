@@ -11,7 +11,7 @@ use super::bins::best_cut_and_overlap;
 use super::box8::Box8;
 use super::cut::Cuttable;
 use super::item::{Extent, Item, Parted};
-use super::slab::best_slab;
+use super::slab::{Parts, best_slab};
 use super::split::{halvings, part_by};
 use super::{MAX_DEPTH, Quality};
 
@@ -166,7 +166,8 @@ impl<C: Cuttable> Grower<'_, C> {
         budget: usize,
         beaten: f64,
     ) -> Option<[Vec<Item>; 2]> {
-        let slab = best_slab(items, extent, self.triangles)?;
+        let parts = if self.quality == Quality::High { Parts::Triangles } else { Parts::Boxes };
+        let slab = best_slab(items, extent, parts, self.triangles)?;
         if WORTH * slab.cost >= beaten || slab.extra(items.len()) > budget {
             return None;
         }
