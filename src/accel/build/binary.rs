@@ -1,7 +1,7 @@
 //! The binary tree over the primitives: what [`super::plan`] and [`super::collapse`] turn into nodes of eight.
 
 use super::Quality;
-use super::item::{Extent, GRAIN, Item, Parted};
+use super::item::{Extent, Item, Parted};
 use super::split::split;
 use crate::math::Aabb;
 
@@ -42,11 +42,14 @@ pub(super) fn grow_parted(
 /// Appends the nodes over a range; ranges count from 0.
 pub(super) fn grow_onto(nodes: &mut Vec<BinaryNode>, items: &mut [Item], depth: u32, quality: Quality) {
     let (extent, place) = (Extent::of(items), Place { first: 0, depth });
-    if items.len() <= GRAIN {
+    if items.len() <= ALONE {
         return grow_alone(items, &extent, place, quality, nodes);
     }
     grow_shared(items, &extent, place, quality).iter().for_each(|piece| nodes.extend_from_slice(piece));
 }
+
+/// Ranges up to this length grow by one task: few enough for any number of tasks to keep busy.
+const ALONE: usize = 1 << 14;
 
 /// Where a range is.
 #[derive(Clone, Copy, Default)]
@@ -67,7 +70,7 @@ impl Place {
 
 /// The nodes over a range, in pieces: tasks share the range until pieces are small.
 fn grow_shared(items: &mut [Item], extent: &Extent, place: Place, quality: Quality) -> Vec<Vec<BinaryNode>> {
-    if items.len() <= GRAIN {
+    if items.len() <= ALONE {
         // Most leaves hold several; what is not needed stays untouched.
         let mut nodes = Vec::with_capacity(items.len());
         grow_alone(items, extent, place, quality, &mut nodes);

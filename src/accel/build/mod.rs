@@ -222,41 +222,23 @@ fn order(items: &[Item], leaves: &mut [Leaf]) -> Vec<u32> {
     order
 }
 
-/// Pairs of places that sort eight when they are put in order one after the other.
-///
-/// **Source:** Knuth, "The Art of Computer Programming", volume 3, section 5.3.4: Batcher's sorting network.
-const NETWORK: [[usize; 2]; 19] = [
-    [0, 4],
-    [1, 5],
-    [2, 6],
-    [3, 7],
-    [0, 2],
-    [1, 3],
-    [4, 6],
-    [5, 7],
-    [2, 4],
-    [3, 5],
-    [0, 1],
-    [2, 3],
-    [4, 5],
-    [6, 7],
-    [1, 4],
-    [3, 6],
-    [1, 2],
-    [3, 4],
-    [5, 6],
-];
-
 /// Sorts the numbers of a leaf; without a branch, for no two leaves are alike.
+///
+/// **Source:** Batcher's odd-even merge sort: Knuth, "The Art of Computer Programming", volume 3, section 5.3.4.
 fn sort(numbers: &mut [u32]) {
     let mut places = [u32::MAX; LEAF_SIZE];
     for (place, &number) in places.iter_mut().zip(&*numbers) {
         *place = number;
     }
-    for [a, b] in NETWORK {
-        (places[a], places[b]) = (places[a].min(places[b]), places[a].max(places[b]));
-    }
-    for (number, place) in numbers.iter_mut().zip(places) {
+    let pair = |a: u32, b: u32| (a.min(b), a.max(b));
+    let [a, b, c, d, e, f, g, h] = places;
+    let ((a, e), (b, f), (c, g), (d, h)) = (pair(a, e), pair(b, f), pair(c, g), pair(d, h));
+    let ((a, c), (b, d), (e, g), (f, h)) = (pair(a, c), pair(b, d), pair(e, g), pair(f, h));
+    let ((c, e), (d, f)) = (pair(c, e), pair(d, f));
+    let ((a, b), (c, d), (e, f), (g, h)) = (pair(a, b), pair(c, d), pair(e, f), pair(g, h));
+    let ((b, e), (d, g)) = (pair(b, e), pair(d, g));
+    let ((b, c), (d, e), (f, g)) = (pair(b, c), pair(d, e), pair(f, g));
+    for (number, place) in numbers.iter_mut().zip([a, b, c, d, e, f, g, h]) {
         *number = place;
     }
 }

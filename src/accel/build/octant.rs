@@ -43,7 +43,7 @@ fn sets_of(count: usize) -> impl Iterator<Item = usize> {
     let next = |&set: &usize| {
         let last = set & set.wrapping_neg();
         let carried = set + last;
-        Some((carried ^ set) >> 2 >> last.trailing_zeros() | carried)
+        (set != 0).then(|| (carried ^ set) >> 2 >> last.trailing_zeros() | carried)
     };
     std::iter::successors(Some((1 << count) - 1), next).take_while(|&set| set < SETS)
 }

@@ -4,6 +4,7 @@ use super::super::MAX_DEPTH;
 use super::super::binary::{self, BinaryNode};
 use super::super::box8::Box8;
 use super::super::item::Item;
+use super::Links;
 
 /// A node. Siblings stand side by side, the first at an odd place; the root is at 0.
 #[derive(Clone, Copy)]
@@ -23,12 +24,35 @@ pub(super) struct Linked {
 }
 
 /// The other child of the parent of a node that is not the root.
-pub(super) fn sibling(at: u32) -> u32 {
+fn sibling(at: u32) -> u32 {
     ((at - 1) ^ 1) + 1
 }
 
 fn pair(at: u32) -> usize {
     (at as usize - 1) / 2
+}
+
+impl Links for Linked {
+    fn len(&self) -> usize {
+        self.nodes.len()
+    }
+    #[inline(always)]
+    fn bounds(&self, at: u32) -> Box8 {
+        self.nodes[at as usize].bounds
+    }
+    #[inline(always)]
+    fn children(&self, at: u32) -> Option<[u32; 2]> {
+        let below = self.nodes[at as usize].below;
+        (below != 0).then_some([below, below + 1])
+    }
+    #[inline(always)]
+    fn parent(&self, at: u32) -> u32 {
+        self.parents[pair(at)]
+    }
+    #[inline(always)]
+    fn sibling(&self, at: u32) -> u32 {
+        sibling(at)
+    }
 }
 
 impl Linked {
@@ -52,24 +76,6 @@ impl Linked {
             stack.extend([(from + right, below + 1), (from + 1, below)]);
         }
         Some(Self { nodes, parents })
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.nodes.len()
-    }
-
-    pub(super) fn bounds(&self, at: u32) -> Box8 {
-        self.nodes[at as usize].bounds
-    }
-
-    /// **Needs:** not the root.
-    pub(super) fn parent(&self, at: u32) -> u32 {
-        self.parents[pair(at)]
-    }
-
-    pub(super) fn children(&self, at: u32) -> Option<[u32; 2]> {
-        let below = self.nodes[at as usize].below;
-        (below != 0).then_some([below, below + 1])
     }
 
     /// True if a node is another or in the subtree below it.
