@@ -5,64 +5,25 @@
 //! costs the same when it is not full), and among equal costs the more even cut wins, so that flat scenes whose areas
 //! are all zero still halve.
 
-use wide::{f32x4, f32x8, f64x4, i32x4, u16x16, u32x4};
+mod binning;
+mod one_axis;
+#[cfg(test)]
+mod tests;
+
+use wide::{f64x4, i32x4, u16x16, u32x4};
 
 use super::box8::Box8;
-use super::item::{Extent, Item, Parted, XYZ, partition, reduce};
+use super::item::{Extent, Item, Parted, partition, reduce};
 use super::{LEAF_SIZE, SOLITARY};
+pub(super) use binning::Binning;
+pub(super) use one_axis::Side;
+use one_axis::{best_on, sides_on};
 
 /// Bins on an axis; powers of two, so that an index is confined by a mask. Short ranges, which are most of them, spend
 /// their time on the bins rather than on the items.
 const MANY: usize = 16;
 const FEW: usize = 8;
 const FEW_ITEMS: usize = 48;
-
-/// From centroids to bins: an affine map by axis.
-#[derive(Clone, Copy)]
-pub(super) struct Binning {
-    origin: f32x4,
-    scale: f32x4,
-}
-
-impl Binning {
-    pub(super) fn new<const BINS: usize>(centroids: Box8) -> Self {
-        let (origin, size) = (centroids.lo() & XYZ, centroids.hi() - centroids.lo());
-        let scale = f32x4::splat(BINS as f32) / size & size.simd_gt(f32x4::ZERO) & XYZ;
-        Self { origin, scale }
-    }
-
-    /// The bins of an item by axis. Overflow and NaN (from sizes near the ends of `f32`) end in some bin, which is
-    /// always the same for the same item: all that partitioning needs.
-    #[inline(always)]
-    fn bins<const BINS: usize>(&self, item: &Item) -> [usize; 4] {
-        let place = (item.centroid() - self.origin) * self.scale;
-        let place = place.fast_max(f32x4::ZERO).fast_min(f32x4::splat((BINS - 1) as f32));
-        place.fast_trunc_int().to_array().map(|bin| bin as usize & (BINS - 1))
-    }
-
-    /// The bin of an item on one axis.
-    #[inline(always)]
-    pub(super) fn on_axis<const BINS: usize>(self, axis: usize) -> impl Fn(&Item) -> usize + Sync {
-        let [origin, scale] = [self.origin, self.scale].map(|lanes| f32x4::splat(lanes.to_array()[axis]));
-        move |item| {
-            let place = (f32x4::splat(item.place(axis)) - origin) * scale;
-            let place = place.fast_max(f32x4::ZERO).fast_min(f32x4::splat((BINS - 1) as f32));
-            place.fast_trunc_int().to_array()[0] as usize & (BINS - 1)
-        }
-    }
-
-    /// All lanes set for items whose bin on an axis comes before another.
-    #[inline(always)]
-    fn before<const BINS: usize>(self, axis: usize, bin: usize) -> impl Fn(&Item) -> f32x8 + Sync {
-        let [origin, scale] = [self.origin, self.scale].map(|lanes| f32x8::splat(lanes.to_array()[axis]));
-        let bin = f32x8::splat(bin as f32);
-        move |item| {
-            let place = (f32x8::splat(item.place(axis)) - origin) * scale;
-            let place = place.fast_max(f32x8::ZERO).fast_min(f32x8::splat((BINS - 1) as f32));
-            !place.simd_ge(bin)
-        }
-    }
-}
 
 /// A cut between two bins of an axis.
 #[derive(Clone, Copy)]
@@ -279,86 +240,4 @@ fn as_f64(count: u32x4) -> f64x4 {
 #[inline(always)]
 fn weight(item: &Item) -> u32 {
     if item.kind() == SOLITARY { LEAF_SIZE as u32 } else { 1 }
-}
-
-/// What fell into each bin of one axis.
-fn sides_on<const BINS: usize>(axis: usize, items: &[Item], extent: &Extent) -> [Side; BINS] {
-    let bin = Binning::new::<BINS>(extent.centroids).on_axis::<BINS>(axis);
-    let run = |run: &[Item]| {
-        let mut sets = [[Side::EMPTY; BINS]; 2];
-        for (i, item) in run.iter().enumerate() {
-            sets[i & 1][bin(item)].add(Side::of(item));
-        }
-        join_sides(sets[0], sets[1])
-    };
-    reduce(items, &run, &join_sides)
-}
-
-fn join_sides<const BINS: usize>(mut a: [Side; BINS], b: [Side; BINS]) -> [Side; BINS] {
-    for (side, other) in a.iter_mut().zip(b) {
-        side.add(other);
-    }
-    a
-}
-
-fn best_on<const BINS: usize>(axis: usize, sides: &[Side; BINS]) -> Option<Cut> {
-    let rights = right_sides(sides);
-    let mut left = Side::EMPTY;
-    let mut best = Cut { axis, bin: 0, cost: f64::INFINITY, larger_side: u32::MAX };
-    for bin in 1..BINS {
-        // After an empty bin the cut is the one before it again.
-        if sides[bin - 1].count == 0 {
-            continue;
-        }
-        left.add(sides[bin - 1]);
-        let (right_cost, right_count) = rights[bin];
-        if right_count == 0 {
-            break;
-        }
-        let cost = left.cost() + right_cost;
-        best = best.better(Cut { axis, bin, cost, larger_side: left.count.max(right_count) });
-    }
-    (best.bin != 0).then_some(best)
-}
-
-/// Cost and count of all bins from each one on.
-fn right_sides<const BINS: usize>(sides: &[Side; BINS]) -> [(f64, u32); BINS] {
-    let mut rights = [(0.0, 0); BINS];
-    let mut right = Side::EMPTY;
-    let mut last = (0.0, 0);
-    for bin in (1..BINS).rev() {
-        if sides[bin].count != 0 {
-            right.add(sides[bin]);
-            last = (right.cost(), right.count);
-        }
-        rights[bin] = last;
-    }
-    rights
-}
-
-/// The box and number of some items: a bin, or all bins on one side of a cut.
-#[derive(Clone, Copy)]
-pub(super) struct Side {
-    pub(super) bounds: Box8,
-    pub(super) count: u32,
-}
-
-impl Side {
-    pub(super) const EMPTY: Self = Self { bounds: Box8::EMPTY, count: 0 };
-
-    #[inline(always)]
-    fn of(item: &Item) -> Self {
-        Self { bounds: item.bounds, count: weight(item) }
-    }
-
-    #[inline(always)]
-    pub(super) fn add(&mut self, o: Self) {
-        self.bounds = self.bounds.join(o.bounds);
-        self.count += o.count;
-    }
-
-    #[inline(always)]
-    pub(super) fn cost(&self) -> f64 {
-        self.bounds.half_area() * f64::from(self.count.div_ceil(LEAF_SIZE as u32))
-    }
 }

@@ -92,3 +92,39 @@ impl Sorted {
         bytemuck::cast([low, high])
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::bins::quick_cut;
+    use super::super::tests::{cube, unit};
+    use super::*;
+
+    /// As [`part_small`], by bins.
+    fn plain(items: &[Item], extent: &Extent, most: f64) -> Option<f64> {
+        quick_cut(items, extent).map(|cut| cut.cost).filter(|&cost| cost < most)
+    }
+
+    #[test]
+    fn it_parts_as_bins_do() {
+        let mut parted = 0;
+        for round in 0..4_000_u32 {
+            let len = 1 + round as usize % LEAF_SIZE;
+            let at = |i: usize| [0, 1, 2].map(|k| unit(31 * round + 3 * i as u32 + k));
+            // As often as not on a grid, where boxes coincide.
+            let at = |i: usize| at(i).map(|x| if round / 8 % 2 == 0 { x } else { (3.0 * x).floor() });
+            let item = |i: usize| Item::new(i as u32, &cube(at(i), 0.1 * unit(7 * round + i as u32), 1));
+            let mut items: Vec<Item> = (0..len).map(item).collect();
+            let extent = Extent::of(&items);
+            let most = 0.8 * extent.bounds.half_area();
+            let expected = plain(&items, &extent, most);
+            let found = part_small(&mut items, &extent, most);
+            let cost = |parted: Parted| parted.sides.map(|side| side.bounds.half_area()).iter().sum::<f64>();
+            assert_eq!(found.map(cost), expected, "{items:?}");
+            let mut numbers: Vec<u32> = items.iter().map(Item::number).collect();
+            numbers.sort_unstable();
+            assert!(numbers.into_iter().eq(0..len as u32));
+            parted += usize::from(found.is_some());
+        }
+        assert!((400..3_600).contains(&parted), "{parted}");
+    }
+}
