@@ -3,19 +3,20 @@
 use rayon::prelude::*;
 
 use super::binary::BinaryNode;
-use super::item::{GRAIN, Item};
+use super::item::GRAIN;
+use super::numbers::Member;
 use super::plan::{Children, Plan};
 use super::{KINDS, Leaf, octant};
 use crate::accel::node::{ChildRef, Node8};
 use crate::accel::unchecked::reserve;
 use crate::math::{Aabb, WIDTH};
 
-/// The binary tree, what becomes of its nodes, and the items in its order: what collapsing reads.
+/// The binary tree, what becomes of its nodes, and the primitives in its order: what collapsing reads.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) nodes: &'a [BinaryNode],
     pub(super) plans: &'a [Plan],
-    pub(super) items: &'a [Item],
+    pub(super) members: &'a [Member],
 }
 
 /// A part of the wide tree, numbered from zero.
@@ -34,7 +35,7 @@ const BINARY_NODES_A_NODE: f64 = 9.5;
 pub(super) fn collapse(source: Source, root: usize) -> Fragment {
     let mut fragment = Fragment { nodes: Vec::new(), leaves: Default::default(), depth: 0 };
     if source.nodes[root].len as usize <= GRAIN {
-        let share = f64::from(source.nodes[root].len) / source.items.len() as f64;
+        let share = f64::from(source.nodes[root].len) / source.members.len() as f64;
         let usual = share * source.nodes.len() as f64 / BINARY_NODES_A_NODE;
         fragment.nodes.reserve(usual as usize + 1);
     }

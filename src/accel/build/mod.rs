@@ -177,16 +177,18 @@ pub fn tree_over(
             Quality::High => spatial::grow(items, budget, triangles),
         };
     }
+    let mut members = numbers::members(&items);
+    drop(items);
     if quality != Quality::Fast {
-        (nodes, items) = reinsert::reinsert(nodes, items);
+        (nodes, members) = reinsert::reinsert(nodes, members);
     }
     let Some(root) = nodes.first() else { return empty() };
     let bounds = root.bounds;
-    let plans = price::affordable_plans(&nodes, &items, count);
-    let source = Source { nodes: &nodes, plans: &plans, items: &items };
+    let plans = price::affordable_plans(&nodes, &members, count);
+    let source = Source { nodes: &nodes, plans: &plans, members: &members };
     let Fragment { nodes, leaves, depth } = collapse(source, 0);
     let mut leaves = leaves.concat();
-    let order = numbers::order(&items, &mut leaves);
+    let order = numbers::order(members, &mut leaves);
     Tree { nodes, order, leaves, max_depth: depth, bounds }
 }
 

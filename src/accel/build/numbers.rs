@@ -5,10 +5,35 @@ use rayon::prelude::*;
 use super::item::{GRAIN, Item};
 use super::{LEAF_SIZE, Leaf};
 
-/// The numbers in the order of the items, sorted within each leaf. A leaf that got two parts of one triangle keeps one,
+/// Bits of a number.
+const NUMBER_BITS: u32 = 29;
+
+/// Number and kind of a primitive: all that is left to know when boxes are in the nodes.
+#[derive(Clone, Copy, Debug)]
+#[repr(transparent)]
+pub(super) struct Member(u32);
+
+impl Member {
+    fn of(item: &Item) -> Self {
+        Self(u32::from(item.kind()) << NUMBER_BITS | item.number())
+    }
+    pub(super) fn number(self) -> u32 {
+        self.0 & ((1 << NUMBER_BITS) - 1)
+    }
+    pub(super) fn kind(self) -> u8 {
+        (self.0 >> NUMBER_BITS) as u8
+    }
+}
+
+/// The items in their order, without their boxes.
+pub(super) fn members(items: &[Item]) -> Vec<Member> {
+    items.par_iter().with_min_len(GRAIN).map(Member::of).collect()
+}
+
+/// The numbers in the order of the members, sorted within each leaf. A leaf that got two parts of one triangle keeps one,
 /// and what it does not need of its stretch stays unused.
-pub(super) fn order(items: &[Item], leaves: &mut [Leaf]) -> Vec<u32> {
-    let mut order: Vec<u32> = items.par_iter().with_min_len(GRAIN).map(Item::number).collect();
+pub(super) fn order(members: Vec<Member>, leaves: &mut [Leaf]) -> Vec<u32> {
+    let mut order: Vec<u32> = members.into_iter().map(Member::number).collect();
     for leaf in leaves {
         let numbers = &mut order[leaf.first as usize..][..usize::from(leaf.len)];
         sort(numbers);

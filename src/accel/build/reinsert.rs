@@ -17,7 +17,6 @@ use rayon::prelude::*;
 
 use super::binary::BinaryNode;
 use super::box8::Box8;
-use super::item::Item;
 use linked::Linked;
 use standing::Standing;
 
@@ -43,8 +42,8 @@ const OVERLAP: f64 = 0.5;
 /// Most nodes that one search visits, whatever the boxes; usual ones visit fewer than 64.
 const MOST_VISITS: usize = 512;
 
-/// The tree after moves, and its items in its new order; as they came where moving does not pay.
-pub(super) fn reinsert(nodes: Vec<BinaryNode>, items: Vec<Item>) -> (Vec<BinaryNode>, Vec<Item>) {
+/// The tree after moves, and what its leaves hold in its new order; as they came where moving does not pay.
+pub(super) fn reinsert<T: Copy>(nodes: Vec<BinaryNode>, items: Vec<T>) -> (Vec<BinaryNode>, Vec<T>) {
     match improved(&nodes).and_then(|tree| tree.laid_out(&nodes, &items)) {
         Some(moved) => moved,
         None => (nodes, items),

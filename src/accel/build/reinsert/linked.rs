@@ -3,7 +3,6 @@
 use super::super::MAX_DEPTH;
 use super::super::binary::{self, BinaryNode};
 use super::super::box8::Box8;
-use super::super::item::Item;
 use super::Links;
 
 /// A node. Siblings stand side by side, the first at an odd place; the root is at 0.
@@ -126,12 +125,12 @@ impl Linked {
         }
     }
 
-    /// Nodes and items in depth-first order, given those from which the tree came; `None` if it became too deep.
-    pub(super) fn laid_out(
+    /// Nodes and what leaves hold in depth-first order, given those from which the tree came; `None` if it became too deep.
+    pub(super) fn laid_out<T: Copy>(
         &self,
         tree: &[BinaryNode],
-        items: &[Item],
-    ) -> Option<(Vec<BinaryNode>, Vec<Item>)> {
+        items: &[T],
+    ) -> Option<(Vec<BinaryNode>, Vec<T>)> {
         let (mut nodes, mut order) = (Vec::with_capacity(tree.len()), Vec::with_capacity(items.len()));
         // Nodes with the splits above them, and right children with where the parent went.
         let mut stack = vec![(0, 0, None)];
@@ -142,8 +141,8 @@ impl Linked {
                 parent.right = (here - parent.right as usize) as u32;
             }
             let node = self.nodes[at as usize];
-            let came = tree[node.leaf as usize];
             let Some([left, right]) = self.children(at) else {
+                let came = tree[node.leaf as usize];
                 nodes.push(came);
                 order.extend_from_slice(&items[came.first as usize..][..came.len as usize]);
                 continue;
@@ -151,7 +150,7 @@ impl Linked {
             if depth == MAX_DEPTH {
                 return None;
             }
-            nodes.push(BinaryNode { bounds: node.bounds.to_aabb(), right: here as u32, ..came });
+            nodes.push(BinaryNode { bounds: node.bounds.to_aabb(), right: here as u32, first: 0, len: 0 });
             stack.extend([(right, depth + 1, Some(here)), (left, depth + 1, None)]);
         }
         binary::number(&mut nodes);

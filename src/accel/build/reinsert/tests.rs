@@ -1,7 +1,7 @@
 use proptest::prelude::*;
 
 use super::super::binary::grow;
-use super::super::item::Extent;
+use super::super::item::{Extent, Item};
 use super::super::tests::{cube, unit};
 use super::super::{BuildPrimitive, MAX_DEPTH, Quality};
 use super::*;
