@@ -1,7 +1,9 @@
 //! From the columns of a scene to its trees: one for the world, one for each group that an instance shows.
 
+use std::ops::Range;
+
 use super::block::{CylinderBlock, SphereBlock, TriangleBlock};
-use super::build::{BLOCK_BYTES, BuildPrimitive, Cuttable, KINDS, MAX_DEPTH, Quality, Tree, build};
+use super::build::{BLOCK_BYTES, BuildPrimitive, Cuttable, KINDS, MAX_DEPTH, Quality, Tree, tree_over};
 use super::instance::{PlacedTree, Placement, TreeRoot};
 use super::{Accel, BuiltGroup, unchecked};
 use crate::geometry::{Geometry, Group, Instance, Triangles, row3};
@@ -22,7 +24,7 @@ struct GroupTree {
 /// The triangles of a group, which come first in its numbering.
 struct GroupTriangles<'a> {
     triangles: &'a Triangles,
-    rows: std::ops::Range<usize>,
+    rows: Range<usize>,
 }
 
 impl Cuttable for GroupTriangles<'_> {
@@ -31,13 +33,17 @@ impl Cuttable for GroupTriangles<'_> {
         let n = primitive as usize;
         (n < self.rows.len()).then(|| self.triangles.corners(self.rows.start + n))
     }
+    #[inline]
+    fn is_cuttable(&self, primitive: u32) -> bool {
+        (primitive as usize) < self.rows.len()
+    }
 }
 
 /// Primitives of a group in one numbering: kinds one after the other.
 struct Rows {
-    triangles: std::ops::Range<usize>,
-    spheres: std::ops::Range<usize>,
-    cylinders: std::ops::Range<usize>,
+    triangles: Range<usize>,
+    spheres: Range<usize>,
+    cylinders: Range<usize>,
 }
 
 impl Rows {
@@ -134,8 +140,12 @@ impl Accel {
         let entries = 7 * tree.max_depth.min(MAX_DEPTH) as usize + WIDTH;
         // A ray may be in the world's tree and in one group's at a time.
         self.stack_bound = self.stack_bound.max(2 * entries);
-        unchecked::reserve(&mut self.nodes, tree.nodes.len());
-        self.nodes.append(&mut tree.nodes);
+        if self.nodes.is_empty() {
+            self.nodes = tree.nodes;
+        } else {
+            unchecked::reserve(&mut self.nodes, tree.nodes.len());
+            self.nodes.append(&mut tree.nodes);
+        }
         root
     }
 }
@@ -158,16 +168,15 @@ fn pack<B: Send>(to: &mut Vec<B>, tree: &Tree, rows: &Rows, kind: u8, block: imp
 /// The tree over the rows of a group, and in the world over its instances too.
 fn group_tree(geometry: &Geometry, group: &Group, instances: &[Aabb], quality: Quality) -> GroupTree {
     let Group { triangles, spheres, cylinders } = group.clone();
-    let of = |bounds: Aabb, kind: u8| BuildPrimitive { bounds, kind };
-    let mut primitives: Vec<BuildPrimitive> = triangles
-        .clone()
-        .into_par_iter()
-        .map(|row| of(geometry.triangles.bounds(row), PrimKind::Triangle as u8))
-        .collect();
-    primitives.extend(spheres.clone().map(|r| of(geometry.spheres.bounds(r), PrimKind::Sphere as u8)));
-    primitives.extend(cylinders.clone().map(|r| of(geometry.cylinders.bounds(r), PrimKind::Cylinder as u8)));
-    primitives.extend(instances.iter().map(|&b| of(b, Accel::INSTANCE)));
+    let of = |bounds: Aabb, kind: PrimKind| BuildPrimitive { bounds, kind: kind as u8 };
+    let rows = |rows: &Range<usize>| rows.clone().into_par_iter();
+    let primitives = rows(&triangles).map(|row| of(geometry.triangles.bounds(row), PrimKind::Triangle));
+    let primitives =
+        primitives.chain(rows(&spheres).map(|row| of(geometry.spheres.bounds(row), PrimKind::Sphere)));
+    let primitives =
+        primitives.chain(rows(&cylinders).map(|row| of(geometry.cylinders.bounds(row), PrimKind::Cylinder)));
+    let placed = |&bounds: &Aabb| BuildPrimitive { bounds, kind: Accel::INSTANCE };
     let cuttable = GroupTriangles { triangles: &geometry.triangles, rows: triangles.clone() };
-    let tree = build(&primitives, quality, &cuttable);
+    let tree = tree_over(primitives.chain(instances.par_iter().map(placed)), quality, &cuttable);
     GroupTree { tree, rows: Rows { triangles, spheres, cylinders } }
 }

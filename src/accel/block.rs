@@ -65,9 +65,15 @@ impl TriangleBlock {
     /// Packs rows of the triangle columns.
     pub fn pack(geometry: &Geometry, rows: &[u32]) -> Self {
         let t = &geometry.triangles;
-        let place =
-            |corner: usize, axis: usize| lanes(rows, |r| t.position[axis][t.vertex[corner][r] as usize]);
-        let corner = three(|corner| three(|axis| place(corner, axis)));
+        let mut corner = [[[f32::NAN; WIDTH]; 3]; 3];
+        for (lane, &row) in rows.iter().enumerate() {
+            for (corner, vertex) in corner.iter_mut().zip(&t.vertex) {
+                let vertex = vertex[row as usize] as usize;
+                for (axis, position) in corner.iter_mut().zip(&t.position) {
+                    axis[lane % WIDTH] = position[vertex];
+                }
+            }
+        }
         Self { corner, id: ids(rows, PrimKind::Triangle) }
     }
     /// True if the corners are the same bits.

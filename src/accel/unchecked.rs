@@ -75,11 +75,11 @@ const PAGE_BYTES: usize = 4096;
 
 /// Bytes below which huge pages of two megabytes would rather waste memory than save time.
 #[cfg(target_os = "linux")]
-const LEAST_HUGE_BYTES: usize = 4 << 20;
+const LEAST_HUGE_BYTES: usize = 2 << 20;
 
 /// Makes room for exactly so many more elements, where those are many in huge pages if the system hands them out on
 /// request: rays that go anywhere then seldom wait for addresses to be translated.
-pub(super) fn reserve<T>(to: &mut Vec<T>, more: usize) {
+pub(in crate::accel) fn reserve<T>(to: &mut Vec<T>, more: usize) {
     to.reserve_exact(more);
     #[cfg(target_os = "linux")]
     {

@@ -1,7 +1,7 @@
 //! The binary tree over the primitives: what [`super::plan`] and [`super::collapse`] turn into nodes of eight.
 
 use super::Quality;
-use super::item::{Extent, GRAIN, Item};
+use super::item::{Extent, Item, Parted};
 use super::split::split;
 use crate::math::Aabb;
 
@@ -24,53 +24,98 @@ impl BinaryNode {
     }
 }
 
-/// The nodes over all items, which end up in the order of the leaves; empty without items.
-pub(super) fn grow(items: &mut [Item], quality: Quality) -> Vec<BinaryNode> {
-    if items.is_empty() { Vec::new() } else { grow_shared(items, 0, 0, quality).concat() }
+/// The nodes over all items, of which there are some, and which end up in the order of the leaves.
+pub(super) fn grow(items: &mut [Item], extent: &Extent, quality: Quality) -> Vec<BinaryNode> {
+    grow_shared(items, extent, Place::default(), quality).concat()
+}
+
+/// [`grow`] for a range that is parted already.
+pub(super) fn grow_parted(
+    items: &mut [Item],
+    extent: &Extent,
+    parted: Parted,
+    quality: Quality,
+) -> Vec<BinaryNode> {
+    grow_sides(items, extent, parted, Place::default(), quality).concat()
 }
 
 /// Appends the nodes over a range; ranges count from 0.
 pub(super) fn grow_onto(nodes: &mut Vec<BinaryNode>, items: &mut [Item], depth: u32, quality: Quality) {
-    if items.len() <= GRAIN {
-        return grow_alone(items, 0, depth, quality, nodes);
+    let (extent, place) = (Extent::of(items), Place { first: 0, depth });
+    if items.len() <= ALONE {
+        return grow_alone(items, &extent, place, quality, nodes);
     }
-    grow_shared(items, 0, depth, quality).iter().for_each(|piece| nodes.extend_from_slice(piece));
+    grow_shared(items, &extent, place, quality).iter().for_each(|piece| nodes.extend_from_slice(piece));
+}
+
+/// Ranges up to this length grow by one task: few enough for any number of tasks to keep busy.
+const ALONE: usize = 1 << 14;
+
+/// Where a range is.
+#[derive(Clone, Copy, Default)]
+struct Place {
+    /// Its first item.
+    first: u32,
+    /// Splits above.
+    depth: u32,
+}
+
+impl Place {
+    /// Places of both sides.
+    fn below(self, middle: usize) -> [Self; 2] {
+        let depth = self.depth + 1;
+        [Self { depth, ..self }, Self { depth, first: self.first + middle as u32 }]
+    }
 }
 
 /// The nodes over a range, in pieces: tasks share the range until pieces are small.
-fn grow_shared(items: &mut [Item], first: u32, depth: u32, quality: Quality) -> Vec<Vec<BinaryNode>> {
-    if items.len() <= GRAIN {
+fn grow_shared(items: &mut [Item], extent: &Extent, place: Place, quality: Quality) -> Vec<Vec<BinaryNode>> {
+    if items.len() <= ALONE {
         // Most leaves hold several; what is not needed stays untouched.
         let mut nodes = Vec::with_capacity(items.len());
-        grow_alone(items, first, depth, quality, &mut nodes);
+        grow_alone(items, extent, place, quality, &mut nodes);
         return vec![nodes];
     }
-    let (mut node, middle) = open(items, first, depth, quality);
-    let Some(middle) = middle else { return vec![vec![node]] };
+    match split(items, extent, place.depth, quality) {
+        Some(parted) => grow_sides(items, extent, parted, place, quality),
+        None => vec![vec![BinaryNode::leaf(extent, place.first, items.len())]],
+    }
+}
+
+/// The nodes over a range that was parted.
+fn grow_sides(
+    items: &mut [Item],
+    extent: &Extent,
+    Parted { middle, sides }: Parted,
+    place: Place,
+    quality: Quality,
+) -> Vec<Vec<BinaryNode>> {
+    let mut node = BinaryNode::leaf(extent, place.first, items.len());
     let (left, right) = items.split_at_mut(middle);
+    let below = place.below(middle);
     let (left, right) = rayon::join(
-        || grow_shared(left, first, depth + 1, quality),
-        || grow_shared(right, first + middle as u32, depth + 1, quality),
+        || grow_shared(left, &sides[0], below[0], quality),
+        || grow_shared(right, &sides[1], below[1], quality),
     );
     node.right = 1 + left.iter().map(Vec::len).sum::<usize>() as u32;
     std::iter::once(vec![node]).chain(left).chain(right).collect()
 }
 
-fn grow_alone(items: &mut [Item], first: u32, depth: u32, quality: Quality, nodes: &mut Vec<BinaryNode>) {
-    let (node, middle) = open(items, first, depth, quality);
+fn grow_alone(
+    items: &mut [Item],
+    extent: &Extent,
+    place: Place,
+    quality: Quality,
+    nodes: &mut Vec<BinaryNode>,
+) {
     let at = nodes.len();
-    nodes.push(node);
-    let Some(middle) = middle else { return };
+    nodes.push(BinaryNode::leaf(extent, place.first, items.len()));
+    let Some(Parted { middle, sides }) = split(items, extent, place.depth, quality) else { return };
     let (left, right) = items.split_at_mut(middle);
-    grow_alone(left, first, depth + 1, quality, nodes);
+    let below = place.below(middle);
+    grow_alone(left, &sides[0], below[0], quality, nodes);
     nodes[at].right = (nodes.len() - at) as u32;
-    grow_alone(right, first + middle as u32, depth + 1, quality, nodes);
-}
-
-/// The node of a range, as a leaf, and where it parts if it is none.
-fn open(items: &mut [Item], first: u32, depth: u32, quality: Quality) -> (BinaryNode, Option<usize>) {
-    let extent = Extent::of(items);
-    (BinaryNode::leaf(&extent, first, items.len()), split(items, &extent, depth, quality))
+    grow_alone(right, &sides[1], below[1], quality, nodes);
 }
 
 /// Sets ranges to where the items ended up: leaves hold them one after the other.

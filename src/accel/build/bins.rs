@@ -5,40 +5,25 @@
 //! costs the same when it is not full), and among equal costs the more even cut wins, so that flat scenes whose areas
 //! are all zero still halve.
 
-use wide::f32x4;
+mod binning;
+mod one_axis;
+#[cfg(test)]
+mod tests;
 
-use super::item::{Box4, Extent, Item, longest_axis, partition, reduce};
+use wide::{f64x4, i32x4, u16x16, u32x4};
+
+use super::box8::Box8;
+use super::item::{Extent, Item, Parted, partition, reduce};
 use super::{LEAF_SIZE, SOLITARY};
+pub(super) use binning::Binning;
+pub(super) use one_axis::Side;
+use one_axis::{best_on, sides_on};
 
 /// Bins on an axis; powers of two, so that an index is confined by a mask. Short ranges, which are most of them, spend
 /// their time on the bins rather than on the items.
 const MANY: usize = 16;
 const FEW: usize = 8;
 const FEW_ITEMS: usize = 48;
-
-/// From centroids to bins: an affine map by axis.
-#[derive(Clone, Copy)]
-pub(super) struct Binning {
-    origin: f32x4,
-    scale: f32x4,
-}
-
-impl Binning {
-    fn new<const BINS: usize>(centroids: Box4) -> Self {
-        let size = (centroids.hi - centroids.lo).to_array();
-        let scale = |k: usize| if k < 3 && size[k] > 0.0 { BINS as f32 / size[k] } else { 0.0 };
-        Self { origin: centroids.lo, scale: f32x4::new(std::array::from_fn(scale)) }
-    }
-
-    /// The bins of an item by axis. Overflow and NaN (from sizes near the ends of `f32`) end in some bin, which is
-    /// always the same for the same item: all that partitioning needs.
-    #[inline(always)]
-    fn bins<const BINS: usize>(&self, item: &Item) -> [usize; 4] {
-        let place = (item.centroid() - self.origin) * self.scale;
-        let place = place.fast_max(f32x4::ZERO).fast_min(f32x4::splat((BINS - 1) as f32));
-        place.fast_trunc_int().to_array().map(|bin| bin as usize & (BINS - 1))
-    }
-}
 
 /// A cut between two bins of an axis.
 #[derive(Clone, Copy)]
@@ -78,7 +63,7 @@ pub(super) fn best_cut_and_overlap(items: &[Item], extent: &Extent) -> (Option<C
 
 /// The best cut across the longest axis alone.
 pub(super) fn quick_cut(items: &[Item], extent: &Extent) -> Option<Cut> {
-    let axis = longest_axis(extent.centroids);
+    let axis = extent.centroids.longest_axis();
     if items.len() <= FEW_ITEMS {
         best_on(axis, &sides_on::<FEW>(axis, items, extent))
     } else {
@@ -86,8 +71,8 @@ pub(super) fn quick_cut(items: &[Item], extent: &Extent) -> Option<Cut> {
     }
 }
 
-/// Moves the items left of the cut before the others, and gives their count: never 0, never all.
-pub(super) fn part(items: &mut [Item], extent: &Extent, cut: &Cut) -> usize {
+/// Moves the items left of the cut before the others; neither side stays empty.
+pub(super) fn part(items: &mut [Item], extent: &Extent, cut: &Cut) -> Parted {
     if items.len() <= FEW_ITEMS {
         part_at::<FEW>(items, extent, cut)
     } else {
@@ -95,14 +80,17 @@ pub(super) fn part(items: &mut [Item], extent: &Extent, cut: &Cut) -> usize {
     }
 }
 
-fn part_at<const BINS: usize>(items: &mut [Item], extent: &Extent, cut: &Cut) -> usize {
-    let (binning, axis, bin) = (Binning::new::<BINS>(extent.centroids), cut.axis, cut.bin);
-    partition(items, &|item| binning.bins::<BINS>(item)[axis] < bin)
+fn part_at<const BINS: usize>(items: &mut [Item], extent: &Extent, cut: &Cut) -> Parted {
+    partition(items, &Binning::new::<BINS>(extent.centroids).before::<BINS>(cut.axis, cut.bin))
 }
+
+/// Boxes of what fell into each bin, by axis.
+type Boxes<const BINS: usize> = [[Box8; BINS]; 3];
 
 /// What fell into each bin: boxes and counts, by axis.
 struct Bins<const BINS: usize> {
-    sides: [[Side; BINS]; 3],
+    bounds: Boxes<BINS>,
+    count: [[u32; BINS]; 3],
 }
 
 impl<const BINS: usize> Bins<BINS> {
@@ -111,115 +99,145 @@ impl<const BINS: usize> Bins<BINS> {
         reduce(items, &|run| Self::of_run(run, &binning), &Self::join)
     }
 
+    /// Neighbours often share a bin, and reading at once what was just written takes long: items take turns between two
+    /// sets of bins.
     fn of_run(items: &[Item], binning: &Binning) -> Self {
-        let mut bins = Self { sides: [[Side::EMPTY; BINS]; 3] };
-        for item in items {
-            let side = Side::of(item);
-            for (sides, bin) in bins.sides.iter_mut().zip(binning.bins::<BINS>(item)) {
-                sides[bin].add(side);
+        let mut sets = [[[Box8::EMPTY; BINS]; 3]; 2];
+        let mut count = [[0; BINS]; 3];
+        for counted in items.chunks(TALLIED) {
+            let mut tally = [u16x16::ZERO; 3];
+            let mut pairs = counted.chunks_exact(2);
+            for pair in &mut pairs {
+                put(&mut sets[0], &mut tally, &pair[0], binning);
+                put(&mut sets[1], &mut tally, &pair[1], binning);
+            }
+            for item in pairs.remainder() {
+                put(&mut sets[0], &mut tally, item, binning);
+            }
+            for (count, tally) in count.iter_mut().zip(tally) {
+                for (count, more) in count.iter_mut().zip(tally.to_array()) {
+                    *count += u32::from(more);
+                }
             }
         }
-        bins
+        let [bounds, others] = sets;
+        Self { bounds, count: [[0; BINS]; 3] }.join(Self { bounds: others, count })
     }
 
-    fn join(self, o: Self) -> Self {
-        let [a, b, c] = self.sides;
-        let [d, e, f] = o.sides;
-        Self { sides: [join_sides(a, d), join_sides(b, e), join_sides(c, f)] }
+    fn join(mut self, o: Self) -> Self {
+        for axis in 0..3 {
+            for bin in 0..BINS {
+                self.bounds[axis][bin] = self.bounds[axis][bin].join(o.bounds[axis][bin]);
+                self.count[axis][bin] += o.count[axis][bin];
+            }
+        }
+        self
     }
 
+    #[inline(always)]
+    fn bin(&self, bin: usize) -> ([Box8; 3], u32x4) {
+        let [a, b, c] = [0, 1, 2].map(|axis| self.count[axis][bin]);
+        ([0, 1, 2].map(|axis| self.bounds[axis][bin]), u32x4::new([a, b, c, 0]))
+    }
+
+    /// The best cut on any axis: all three are looked at side by side.
     fn best(&self) -> Option<Cut> {
-        (0..3).filter_map(|axis| best_on(axis, &self.sides[axis])).reduce(Cut::better)
+        let rights = self.rights();
+        let (mut left, mut count) = ([Box8::EMPTY; 3], u32x4::ZERO);
+        let mut best = [f64x4::splat(f64::INFINITY), f64x4::splat(f64::MAX), f64x4::ZERO];
+        for bin in 1..BINS {
+            let (bounds, more) = self.bin(bin - 1);
+            left = joined(left, bounds);
+            count += more;
+            let (right_cost, right_count) = rights[bin];
+            // Without items on one side it is no number.
+            let cost = costs(left, count) + right_cost;
+            let larger = as_f64(count.max(right_count));
+            let [least, least_larger, _] = best;
+            let wins = cost.simd_lt(least) | cost.simd_eq(least) & larger.simd_lt(least_larger);
+            let tried = [cost, larger, f64x4::splat(bin as f64)];
+            best = std::array::from_fn(|i| wins.bitselect(tried[i], best[i]));
+        }
+        let [cost, larger, bin] = best.map(f64x4::to_array);
+        let on = |axis: usize| Cut {
+            axis,
+            bin: bin[axis] as usize,
+            cost: cost[axis],
+            larger_side: larger[axis] as u32,
+        };
+        (0..3).map(on).filter(|cut| cut.bin != 0).reduce(Cut::better)
+    }
+
+    /// Cost and count of all bins from each one on.
+    #[inline(always)]
+    fn rights(&self) -> [(f64x4, u32x4); BINS] {
+        let mut rights = [(f64x4::ZERO, u32x4::ZERO); BINS];
+        let (mut right, mut count) = ([Box8::EMPTY; 3], u32x4::ZERO);
+        for bin in (1..BINS).rev() {
+            let (bounds, more) = self.bin(bin);
+            right = joined(right, bounds);
+            count += more;
+            rights[bin] = (costs(right, count), count);
+        }
+        rights
     }
 
     fn best_and_overlap(&self) -> (Option<Cut>, f64) {
         let Some(cut) = self.best() else { return (None, 0.0) };
-        let (left, right) = self.sides[cut.axis].split_at(cut.bin);
-        let of = |sides: &[Side]| sides.iter().fold(Box4::EMPTY, |all, side| all.join(side.bounds));
+        let (left, right) = self.bounds[cut.axis].split_at(cut.bin);
+        let of = |bins: &[Box8]| bins.iter().fold(Box8::EMPTY, |all, &bin| all.join(bin));
         let shared = of(left).intersection(of(right));
         (Some(cut), if shared.is_empty() { 0.0 } else { shared.half_area() })
     }
 }
 
-/// What fell into each bin of one axis.
-fn sides_on<const BINS: usize>(axis: usize, items: &[Item], extent: &Extent) -> [Side; BINS] {
-    let binning = Binning::new::<BINS>(extent.centroids);
-    let run = |run: &[Item]| {
-        let mut sides = [Side::EMPTY; BINS];
-        for item in run {
-            sides[binning.bins::<BINS>(item)[axis]].add(Side::of(item));
-        }
-        sides
-    };
-    reduce(items, &run, &join_sides)
+/// Items that sixteen bits can count, whatever they count for.
+const TALLIED: usize = 1 << 12;
+
+/// One in the lane of a bin, for items that count for one, and for those that count for a full leaf.
+const ONE: [[u16x16; MANY]; 2] = {
+    let mut one = [[u16x16::new([0; 16]); MANY]; 2];
+    let mut bin = 0;
+    while bin < MANY {
+        let mut lanes = [0; 16];
+        lanes[bin] = 1;
+        one[0][bin] = u16x16::new(lanes);
+        lanes[bin] = LEAF_SIZE as u16;
+        one[1][bin] = u16x16::new(lanes);
+        bin += 1;
+    }
+    one
+};
+
+/// Puts an item into its bins.
+#[inline(always)]
+fn put<const BINS: usize>(bounds: &mut Boxes<BINS>, tally: &mut [u16x16; 3], item: &Item, binning: &Binning) {
+    let (bins, one) = (binning.bins::<BINS>(item), &ONE[usize::from(item.kind() == SOLITARY)]);
+    for axis in 0..3 {
+        let bin = bins[axis];
+        bounds[axis][bin] = bounds[axis][bin].join(item.bounds);
+        tally[axis] += one[bin];
+    }
 }
 
-fn join_sides<const BINS: usize>(mut a: [Side; BINS], b: [Side; BINS]) -> [Side; BINS] {
-    for (side, other) in a.iter_mut().zip(b) {
-        side.add(other);
-    }
-    a
+#[inline(always)]
+fn joined([a, b, c]: [Box8; 3], [d, e, f]: [Box8; 3]) -> [Box8; 3] {
+    [a.join(d), b.join(e), c.join(f)]
 }
 
-fn best_on<const BINS: usize>(axis: usize, sides: &[Side; BINS]) -> Option<Cut> {
-    let rights = right_sides(sides);
-    let mut left = Side::EMPTY;
-    let mut best = Cut { axis, bin: 0, cost: f64::INFINITY, larger_side: u32::MAX };
-    for bin in 1..BINS {
-        // After an empty bin the cut is the one before it again.
-        if sides[bin - 1].count == 0 {
-            continue;
-        }
-        left.add(sides[bin - 1]);
-        let (right_cost, right_count) = rights[bin];
-        if right_count == 0 {
-            break;
-        }
-        let cost = left.cost() + right_cost;
-        best = best.better(Cut { axis, bin, cost, larger_side: left.count.max(right_count) });
-    }
-    (best.bin != 0).then_some(best)
+/// [`Side::cost`] on each axis.
+#[inline(always)]
+fn costs([x, y, z]: [Box8; 3], count: u32x4) -> f64x4 {
+    Box8::half_areas([x, y, z, z]) * as_f64((count + u32x4::splat(LEAF_SIZE as u32 - 1)) >> 3)
 }
 
-/// Cost and count of all bins from each one on.
-fn right_sides<const BINS: usize>(sides: &[Side; BINS]) -> [(f64, u32); BINS] {
-    let mut rights = [(0.0, 0); BINS];
-    let mut right = Side::EMPTY;
-    let mut last = (0.0, 0);
-    for bin in (1..BINS).rev() {
-        if sides[bin].count != 0 {
-            right.add(sides[bin]);
-            last = (right.cost(), right.count);
-        }
-        rights[bin] = last;
-    }
-    rights
+#[inline(always)]
+fn as_f64(count: u32x4) -> f64x4 {
+    f64x4::from_i32x4(bytemuck::cast::<u32x4, i32x4>(count))
 }
 
-/// The box and number of some items: a bin, or all bins on one side of a cut.
-#[derive(Clone, Copy)]
-pub(super) struct Side {
-    pub(super) bounds: Box4,
-    pub(super) count: u32,
-}
-
-impl Side {
-    pub(super) const EMPTY: Self = Self { bounds: Box4::EMPTY, count: 0 };
-
-    /// One item; what has a leaf of its own counts for a full one.
-    #[inline(always)]
-    fn of(item: &Item) -> Self {
-        Self { bounds: item.bounds, count: if item.kind() == SOLITARY { LEAF_SIZE as u32 } else { 1 } }
-    }
-
-    #[inline(always)]
-    pub(super) fn add(&mut self, o: Self) {
-        self.bounds = self.bounds.join(o.bounds);
-        self.count += o.count;
-    }
-
-    #[inline(always)]
-    pub(super) fn cost(&self) -> f64 {
-        self.bounds.half_area() * f64::from(self.count.div_ceil(LEAF_SIZE as u32))
-    }
+/// What an item counts for: one that has a leaf of its own as much as a full one.
+#[inline(always)]
+fn weight(item: &Item) -> u32 {
+    if item.kind() == SOLITARY { LEAF_SIZE as u32 } else { 1 }
 }

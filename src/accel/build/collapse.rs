@@ -3,18 +3,20 @@
 use rayon::prelude::*;
 
 use super::binary::BinaryNode;
-use super::item::{GRAIN, Item};
+use super::item::GRAIN;
+use super::numbers::Member;
 use super::plan::{Children, Plan};
 use super::{KINDS, Leaf, octant};
 use crate::accel::node::{ChildRef, Node8};
+use crate::accel::unchecked::reserve;
 use crate::math::{Aabb, WIDTH};
 
-/// The binary tree, what becomes of its nodes, and the items in its order: what collapsing reads.
+/// The binary tree, what becomes of its nodes, and the primitives in its order: what collapsing reads.
 #[derive(Clone, Copy)]
 pub(super) struct Source<'a> {
     pub(super) nodes: &'a [BinaryNode],
     pub(super) plans: &'a [Plan],
-    pub(super) items: &'a [Item],
+    pub(super) members: &'a [Member],
 }
 
 /// A part of the wide tree, numbered from zero.
@@ -26,9 +28,17 @@ pub(super) struct Fragment {
     pub(super) depth: u32,
 }
 
+/// Binary nodes that become one of eight, usually: 10 where surfaces are smooth, 23 in hair.
+const BINARY_NODES_A_NODE: f64 = 9.5;
+
 /// The nodes above one binary subtree; its root first.
 pub(super) fn collapse(source: Source, root: usize) -> Fragment {
     let mut fragment = Fragment { nodes: Vec::new(), leaves: Default::default(), depth: 0 };
+    if source.nodes[root].len as usize <= GRAIN {
+        let share = f64::from(source.nodes[root].len) / source.members.len() as f64;
+        let usual = share * source.nodes.len() as f64 / BINARY_NODES_A_NODE;
+        fragment.nodes.reserve(usual as usize + 1);
+    }
     fragment.depth = fragment.grow(source, root);
     fragment
 }
@@ -63,6 +73,7 @@ impl Fragment {
     fn grow_shared(&mut self, source: Source, at: usize, below: &[(usize, usize)]) -> u32 {
         let parts: Vec<Self> = below.par_iter().map(|&(_, child)| collapse(source, child)).collect();
         let depth = parts.iter().map(|part| part.depth).max().unwrap_or(0);
+        reserve(&mut self.nodes, parts.iter().map(|part| part.nodes.len()).sum());
         for (&(slot, _), part) in below.iter().zip(parts) {
             self.nodes[at].child[slot] = ChildRef::node(self.nodes.len() as u32);
             self.append(part);
@@ -72,7 +83,7 @@ impl Fragment {
 
     fn push_leaf(&mut self, source: Source, child: usize) -> ChildRef {
         let BinaryNode { first, len, .. } = source.nodes[child];
-        let kind = source.items[first as usize].kind();
+        let kind = source.plans[child].kind();
         let leaves = &mut self.leaves[usize::from(kind)];
         leaves.push(Leaf { kind, len: len as u8, first });
         ChildRef::leaf(kind, leaves.len() as u32 - 1)

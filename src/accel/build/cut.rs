@@ -12,13 +12,17 @@
 
 use wide::f32x4;
 
-use super::item::Box4;
+use super::box8::Box8;
 use crate::math::gamma;
 
 /// What can be cut for spatial splits.
 pub trait Cuttable: Sync {
     /// The corners of a primitive if it is a triangle; nothing else is cut.
     fn corners(&self, primitive: u32) -> Option<[[f32; 3]; 3]>;
+    /// True if it is one.
+    fn is_cuttable(&self, primitive: u32) -> bool {
+        self.corners(primitive).is_some()
+    }
 }
 
 /// Nothing is cut.
@@ -65,7 +69,7 @@ impl Sweep {
 
     /// A box around where the plane at `at` meets the triangle; planes beyond its ends count as at its ends.
     #[inline(always)]
-    pub(super) fn section(&self, at: f32) -> Box4 {
+    pub(super) fn section(&self, at: f32) -> Box8 {
         let ([a, b, c], [first, second, third]) = (self.corners, self.place);
         let at = at.max(first).min(third);
         let other = if at < second {
@@ -78,17 +82,17 @@ impl Sweep {
 
     /// A box around what is between two planes, given the sections there.
     #[inline(always)]
-    pub(super) fn between(&self, [from, to]: [f32; 2], [start, end]: [Box4; 2]) -> Box4 {
+    pub(super) fn between(&self, [from, to]: [f32; 2], [start, end]: [Box8; 2]) -> Box8 {
         let ends = start.join(end);
         let [_, corner, _] = self.corners;
         let inside = from <= self.place[1] && self.place[1] <= to;
-        if inside { ends.join(Box4 { lo: corner, hi: corner }) } else { ends }
+        if inside { ends.join(Box8::new(corner, corner)) } else { ends }
     }
 
     /// Boxes of what lies in the box `part` up to the plane at `at`, and from there on; either may be empty.
     ///
     /// **Source:** Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", 2009, section 4.
-    pub(super) fn cut(&self, part: Box4, at: f32) -> [Box4; 2] {
+    pub(super) fn cut(&self, part: Box8, at: f32) -> [Box8; 2] {
         let ([first, _, third], section) = (self.place, self.section(at));
         let low = self.between([first, at], [self.section(first), section]);
         let high = self.between([at, third], [section, self.section(third)]);
@@ -99,8 +103,8 @@ impl Sweep {
 
 /// A box around the point where an edge crosses the plane at `at`.
 #[inline(always)]
-fn crossing([a, b]: [f32x4; 2], [from, to]: [f32; 2], at: f32) -> Box4 {
-    let whole = Box4 { lo: a.fast_min(b), hi: a.fast_max(b) };
+fn crossing([a, b]: [f32x4; 2], [from, to]: [f32; 2], at: f32) -> Box8 {
+    let whole = Box8::new(a.fast_min(b), a.fast_max(b));
     // Halved, so that no difference overflows.
     let span = 0.5 * to - 0.5 * from;
     if span < LEAST_SPAN {
@@ -109,7 +113,7 @@ fn crossing([a, b]: [f32x4; 2], [from, to]: [f32; 2], at: f32) -> Box4 {
     let share = f32x4::splat((0.5 * at - 0.5 * from) / span);
     let point = a * (f32x4::ONE - share) + b * share;
     let pad = a.abs().fast_max(b.abs()) * f32x4::splat(POINT_ERROR);
-    Box4 { lo: point - pad, hi: point + pad }.intersection(whole)
+    Box8::new(point - pad, point + pad).intersection(whole)
 }
 
 #[cfg(test)]
@@ -118,14 +122,14 @@ mod tests {
     use crate::intersect::testing::dice::Dice;
     use crate::math::Aabb;
 
-    fn box_of(corners: [[f32; 3]; 3]) -> Box4 {
-        Box4::of(&corners.into_iter().fold(Aabb::EMPTY, Aabb::join_point))
+    fn box_of(corners: [[f32; 3]; 3]) -> Box8 {
+        Box8::of(&corners.into_iter().fold(Aabb::EMPTY, Aabb::join_point))
     }
 
     #[test]
     fn a_right_triangle_is_cut_where_it_should_be() {
         let corners = [[0.0, 0.0, 1.0], [4.0, 0.0, 1.0], [0.0, 4.0, 1.0]];
-        let [low, high] = Sweep::new(corners, 0).cut(box_of(corners), 1.0).map(Box4::to_aabb);
+        let [low, high] = Sweep::new(corners, 0).cut(box_of(corners), 1.0).map(Box8::to_aabb);
         assert_eq!((low.min, low.max), ([0.0, 0.0, 1.0], [1.0, 4.0, 1.0]));
         assert_eq!((high.min, high.max[0]), ([1.0, 0.0, 1.0], 4.0));
         assert!((3.0..3.00001).contains(&high.max[1]), "{high:?}");
@@ -134,7 +138,7 @@ mod tests {
     #[test]
     fn a_plane_beside_leaves_one_side_empty() {
         let corners = [[0.0; 3], [1.0, 0.0, 0.0], [0.0, 1.0, 1.0]];
-        let [low, high] = Sweep::new(corners, 1).cut(box_of(corners), 2.0).map(Box4::to_aabb);
+        let [low, high] = Sweep::new(corners, 1).cut(box_of(corners), 2.0).map(Box8::to_aabb);
         assert!(low == box_of(corners).to_aabb() && high.is_empty());
     }
 
@@ -154,7 +158,7 @@ mod tests {
             let mut parts = vec![box_of(corners)];
             for _ in 0..4 {
                 let axis = dice.below(3);
-                let cut = |part: &Box4| {
+                let cut = |part: &Box8| {
                     let b = part.to_aabb();
                     let at = b.min[axis] + dice.unit() as f32 * (b.max[axis] - b.min[axis]);
                     Sweep::new(corners, axis).cut(*part, at)
@@ -167,7 +171,7 @@ mod tests {
                 let at = |k: usize, i: usize| f64::from(corners[i][k]);
                 let point: [f64; 3] =
                     std::array::from_fn(|k| (1.0 - u - v) * at(k, 0) + u * at(k, 1) + v * at(k, 2));
-                let holds = |part: &Box4| {
+                let holds = |part: &Box8| {
                     let b = part.to_aabb();
                     (0..3).all(|k| {
                         let slack = 1e-15 * f64::from(b.max[k].abs().max(b.min[k].abs()));

@@ -1,135 +1,103 @@
 //! Primitives as the builder moves them: 32 bytes each, partitioned in place, so that every range is read in one stream.
 
-use wide::f32x4;
+use bytemuck::cast;
+use wide::{f32x4, f32x8};
 
 use super::BuildPrimitive;
-use crate::math::Aabb;
+use super::box8::Box8;
 
-/// A box in two vectors of four lanes; the fourth lane has no meaning.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Box4 {
-    pub(super) lo: f32x4,
-    pub(super) hi: f32x4,
-}
-
-impl Box4 {
-    pub(super) const EMPTY: Self =
-        Self { lo: f32x4::new([f32::INFINITY; 4]), hi: f32x4::new([f32::NEG_INFINITY; 4]) };
-
-    #[inline(always)]
-    pub(super) fn join(self, o: Self) -> Self {
-        Self { lo: self.lo.fast_min(o.lo), hi: self.hi.fast_max(o.hi) }
-    }
-
-    /// Half the surface area; in `f64`, for coordinates near 1e30 have areas that `f32` cannot hold.
-    #[inline(always)]
-    pub(super) fn half_area(self) -> f64 {
-        let [x, y, z, _] = (self.hi - self.lo).to_array().map(f64::from);
-        x * y + y * z + z * x
-    }
-
-    pub(super) fn of(bounds: &Aabb) -> Self {
-        let ([x, y, z], [u, v, w]) = (bounds.min, bounds.max);
-        Self { lo: f32x4::new([x, y, z, 0.0]), hi: f32x4::new([u, v, w, 0.0]) }
-    }
-
-    /// The part that both cover; may be empty.
-    #[inline(always)]
-    pub(super) fn intersection(self, o: Self) -> Self {
-        Self { lo: self.lo.fast_max(o.lo), hi: self.hi.fast_min(o.hi) }
-    }
-
-    /// True if no point is inside.
-    #[inline(always)]
-    pub(super) fn is_empty(self) -> bool {
-        self.lo.simd_gt(self.hi).to_bitmask() & 7 != 0
-    }
-
-    /// [`Box4::join`] for a box that may be empty.
-    #[inline(always)]
-    pub(super) fn join_part(self, o: Self) -> Self {
-        if o.is_empty() { self } else { self.join(o) }
-    }
-
-    /// What lies up to a plane across an axis, and what lies from there on.
-    #[inline(always)]
-    pub(super) fn parted(self, axis: usize, at: f32) -> (Self, Self) {
-        let (mut lo, mut hi) = (self.lo.to_array(), self.hi.to_array());
-        lo[axis] = lo[axis].max(at);
-        hi[axis] = hi[axis].min(at);
-        (Self { hi: f32x4::new(hi), ..self }, Self { lo: f32x4::new(lo), ..self })
-    }
-
-    pub(super) fn to_aabb(self) -> Aabb {
-        let ([x, y, z, _], [u, v, w, _]) = (self.lo.to_array(), self.hi.to_array());
-        Aabb { min: [x, y, z], max: [u, v, w] }
-    }
-}
-
-/// The axis on which a box is longest; the first of equals.
-pub(super) fn longest_axis(bounds: Box4) -> usize {
-    let size = (bounds.hi - bounds.lo).to_array();
-    (1..3).fold(0, |best, k| if size[k] > size[best] { k } else { best })
-}
-
-/// One primitive: its box, and in the bits of the fourth lanes its number (in `lo`) and kind (in `hi`).
+/// One primitive: its box, and in the bits of the free lanes its number and kind.
 ///
-/// Numbers below 2^29 read as floats are tiny positive ones, never NaN, so minima and maxima may run over all lanes.
+/// Numbers below 2^29 read as floats are tiny positive ones, never NaN, so minima may run over all lanes.
 #[derive(Clone, Copy, Debug)]
-#[repr(C, align(32))]
+#[repr(transparent)]
 pub(super) struct Item {
-    pub(super) bounds: Box4,
+    pub(super) bounds: Box8,
 }
 
-const XYZ: f32x4 =
+const NUMBER: usize = 3;
+const KIND: usize = 7;
+
+/// All lanes but the free one.
+pub(super) const XYZ: f32x4 =
     f32x4::new([f32::from_bits(u32::MAX), f32::from_bits(u32::MAX), f32::from_bits(u32::MAX), 0.0]);
 
+/// All lanes of a box but the free ones.
+pub(super) const XYZXYZ: f32x8 = {
+    let all = f32::from_bits(u32::MAX);
+    f32x8::new([all, all, all, 0.0, all, all, all, 0.0])
+};
+
 impl Item {
+    /// Nowhere.
+    pub(super) const NOTHING: Self = Self { bounds: Box8::EMPTY };
+
     pub(super) fn new(number: u32, primitive: &BuildPrimitive) -> Self {
-        let ([x, y, z], [u, v, w]) = (primitive.bounds.min, primitive.bounds.max);
-        let (number, kind) = (f32::from_bits(number), f32::from_bits(u32::from(primitive.kind)));
-        Self { bounds: Box4 { lo: f32x4::new([x, y, z, number]), hi: f32x4::new([u, v, w, kind]) } }
+        Self::marked(Box8::of(&primitive.bounds), number, u32::from(primitive.kind))
+    }
+    #[inline(always)]
+    fn marked(bounds: Box8, number: u32, kind: u32) -> Self {
+        let mut lanes = bounds.0.to_array();
+        (lanes[NUMBER], lanes[KIND]) = (f32::from_bits(number), f32::from_bits(kind));
+        Self { bounds: Box8(f32x8::new(lanes)) }
     }
     /// The same primitive with another box.
-    pub(super) fn with_bounds(&self, bounds: Box4) -> Self {
-        let put = |place: f32x4, kept: f32x4| (place & XYZ) | (kept & !XYZ);
-        Self { bounds: Box4 { lo: put(bounds.lo, self.bounds.lo), hi: put(bounds.hi, self.bounds.hi) } }
+    pub(super) fn with_bounds(&self, bounds: Box8) -> Self {
+        Self::marked(bounds, self.number(), u32::from(self.kind()))
     }
+    #[inline(always)]
     pub(super) fn number(&self) -> u32 {
-        self.bounds.lo.to_array()[3].to_bits()
+        self.bounds.0.as_array()[NUMBER].to_bits()
     }
+    #[inline(always)]
     pub(super) fn kind(&self) -> u8 {
-        self.bounds.hi.to_array()[3].to_bits() as u8
+        self.bounds.0.as_array()[KIND].to_bits() as u8
     }
     /// Twice the middle of the box. The fourth lane is cleared: products with its denormals are slow.
     #[inline(always)]
     pub(super) fn centroid(&self) -> f32x4 {
-        (self.bounds.lo + self.bounds.hi) & XYZ
+        (self.bounds.lo() + self.bounds.hi()) & XYZ
+    }
+    /// [`Item::centroid`] on one axis.
+    #[inline(always)]
+    pub(super) fn place(&self, axis: usize) -> f32 {
+        let [lo, hi] = self.bounds.along(axis);
+        lo + hi
     }
 }
 
 /// The box of a range and the box of its centroids.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Extent {
-    pub(super) bounds: Box4,
-    pub(super) centroids: Box4,
+    pub(super) bounds: Box8,
+    pub(super) centroids: Box8,
 }
 
 impl Extent {
+    pub(super) const EMPTY: Self = Self { bounds: Box8::EMPTY, centroids: Box8::EMPTY };
+
     pub(super) fn of(items: &[Item]) -> Self {
-        reduce(items, &Self::of_run, &Self::join)
+        let run = |run: &[Item]| run.iter().fold(Self::EMPTY, |all, item| all.join(Self::of_one(item)));
+        reduce(items, &run, &Self::join)
     }
 
-    fn of_run(items: &[Item]) -> Self {
-        items.iter().fold(Self { bounds: Box4::EMPTY, centroids: Box4::EMPTY }, |extent, item| {
-            let c = item.centroid();
-            extent.join(Self { bounds: item.bounds, centroids: Box4 { lo: c, hi: c } })
-        })
+    #[inline(always)]
+    fn of_one(item: &Item) -> Self {
+        let [lo, less_hi]: [f32x4; 2] = cast(item.bounds.0);
+        let turned: f32x8 = cast([less_hi, lo]);
+        Self { bounds: item.bounds, centroids: Box8(item.bounds.0 - turned) }
     }
 
     #[inline(always)]
     fn join(self, o: Self) -> Self {
         Self { bounds: self.bounds.join(o.bounds), centroids: self.centroids.join(o.centroids) }
+    }
+
+    /// [`Extent::join`] where the lanes of a mask are set.
+    #[inline(always)]
+    fn join_where(self, mask: f32x8, o: Self) -> Self {
+        let kept = |b: Box8| Box8(mask.bitselect(b.0, Box8::EMPTY.0));
+        self.join(Self { bounds: kept(o.bounds), centroids: kept(o.centroids) })
     }
 }
 
@@ -152,34 +120,56 @@ pub(super) fn reduce<T: Send>(
     join(left, right)
 }
 
-/// Moves the items that belong to the left before the others, and gives their count. Deterministic; not stable.
-pub(super) fn partition(items: &mut [Item], is_left: &(impl Fn(&Item) -> bool + Sync)) -> usize {
+/// Where a range parts, and what is on either side.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Parted {
+    /// Items on the left.
+    pub(super) middle: usize,
+    pub(super) sides: [Extent; 2],
+}
+
+impl Parted {
+    /// Looks at the sides of a range that parts at `middle`.
+    pub(super) fn at(items: &[Item], middle: usize) -> Self {
+        let (left, right) = items.split_at(middle);
+        Self { middle, sides: [Extent::of(left), Extent::of(right)] }
+    }
+}
+
+/// Moves the items that belong to the left, which have all lanes set, before the others. Deterministic; not stable.
+pub(super) fn partition(items: &mut [Item], is_left: &(impl Fn(&Item) -> f32x8 + Sync)) -> Parted {
     if items.len() <= GRAIN {
         return partition_run(items, is_left);
     }
     let (a, b) = items.split_at_mut(items.len() / 2);
-    let (left_a, left_b) = rayon::join(|| partition(a, is_left), || partition(b, is_left));
-    let swapped = left_b.min(a.len() - left_a);
-    a[left_a..left_a + swapped].swap_with_slice(&mut b[left_b - swapped..left_b]);
-    left_a + left_b
+    let (in_a, in_b) = rayon::join(|| partition(a, is_left), || partition(b, is_left));
+    let swapped = in_b.middle.min(a.len() - in_a.middle);
+    a[in_a.middle..in_a.middle + swapped].swap_with_slice(&mut b[in_b.middle - swapped..in_b.middle]);
+    let side = |i: usize| in_a.sides[i].join(in_b.sides[i]);
+    Parted { middle: in_a.middle + in_b.middle, sides: [side(0), side(1)] }
 }
 
 /// [`partition`] by one task. The swap happens every time, so there is no branch to mispredict.
 ///
 /// **Source:** Lomuto's partition, in the branch-free form of Alexandrescu, "Lomuto's comeback", 2020.
-fn partition_run(items: &mut [Item], is_left: &impl Fn(&Item) -> bool) -> usize {
-    let mut left = 0;
+fn partition_run(items: &mut [Item], is_left: &impl Fn(&Item) -> f32x8) -> Parted {
+    let (mut middle, mut left, mut right) = (0, Extent::EMPTY, Extent::EMPTY);
     for i in 0..items.len() {
-        let step = usize::from(is_left(&items[i]));
-        items.swap(left, i);
-        left += step;
+        let item = items[i];
+        let mask = is_left(&items[i]);
+        (left, right) =
+            (left.join_where(mask, Extent::of_one(&item)), right.join_where(!mask, Extent::of_one(&item)));
+        items[i] = items[middle];
+        items[middle] = item;
+        middle += (mask.to_bitmask() & 1) as usize;
     }
-    left
+    Parted { middle, sides: [left, right] }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::math::Aabb;
 
     fn items(count: u32) -> Vec<Item> {
         let at = |i: u32| [(i.wrapping_mul(2_654_435_761) >> 8) as f32; 3];
@@ -202,8 +192,9 @@ mod tests {
         for count in [0, 1, 7, GRAIN as u32 * 3 + 5] {
             for limit in [-1.0, 3e6, 1e7, 1e9] {
                 let mut shuffled = items(count);
-                let is_left = |item: &Item| item.bounds.lo.to_array()[0] < limit;
-                let left = partition(&mut shuffled, &is_left);
+                let is_left = |item: &Item| item.bounds.along(0)[0] < limit;
+                let mask = |item: &Item| f32x8::splat(item.bounds.along(0)[0]).simd_lt(f32x8::splat(limit));
+                let left = partition(&mut shuffled, &mask).middle;
                 assert!(shuffled[..left].iter().all(is_left) && !shuffled[left..].iter().any(is_left));
                 let mut numbers: Vec<u32> = shuffled.iter().map(Item::number).collect();
                 numbers.sort_unstable();

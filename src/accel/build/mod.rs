@@ -1,8 +1,8 @@
 //! From boxes of primitives to the 8-wide tree; what the primitives are does not matter here.
 //!
-//! 1. `item`: boxes and numbers in 32 bytes a primitive, which all later steps reorder in place.
-//! 2. `bins`, `split`, `binary`: a binary tree by the binned surface area heuristic, leaves up to eight of a kind, instances
-//!    one by one.
+//! 1. `box8`, `item`: boxes and numbers in 32 bytes a primitive, which all later steps reorder in place.
+//! 2. `bins`, `small`, `split`, `binary`: a binary tree by the binned surface area heuristic, leaves up to eight of a kind,
+//!    instances one by one.
 //!    `slab`, `spatial`, `cut`: for [`Quality::High`] also by planes that cut triangles, for [`Quality::Balanced`] the first
 //!    time alone.
 //! 3. `reinsert`: except for [`Quality::Fast`] subtrees move to better places.
@@ -14,14 +14,17 @@
 
 mod binary;
 mod bins;
+mod box8;
 mod collapse;
 mod cut;
 mod item;
+mod numbers;
 mod octant;
 mod plan;
 mod price;
 mod reinsert;
 mod slab;
+mod small;
 mod spatial;
 mod split;
 #[cfg(test)]
@@ -30,10 +33,11 @@ mod tests;
 use rayon::prelude::*;
 
 use super::node::{ChildRef, Node8};
+use super::unchecked::reserve;
 use crate::math::{Aabb, WIDTH};
 use collapse::{Fragment, Source, collapse, moved};
 pub use cut::{Cuttable, Uncut};
-use item::{GRAIN, Item};
+use item::{Extent, GRAIN, Item};
 
 /// Most primitives in a leaf: what one block holds.
 pub const LEAF_SIZE: usize = WIDTH;
@@ -142,6 +146,9 @@ impl Tree {
     ///
     /// **Panics** if an index leaves its 29 bits.
     pub fn offset(&mut self, by: &[u32; KINDS]) {
+        if *by == [0; KINDS] {
+            return;
+        }
         self.nodes.par_iter_mut().for_each(|node| *node = moved(*node, by));
     }
 }
@@ -149,64 +156,61 @@ impl Tree {
 /// The tree over some primitives; `triangles` tells those that may be cut.
 ///
 /// **Panics** if there are 2^29 primitives or more, or if a kind is not one of 1 to 6.
-pub fn build(primitives: &[BuildPrimitive], quality: Quality, triangles: &impl Cuttable) -> Tree {
-    assert!(primitives.len() < ChildRef::CAPACITY, "too many primitives for one tree");
+pub fn tree_over(
+    primitives: impl IndexedParallelIterator<Item = BuildPrimitive>,
+    quality: Quality,
+    triangles: &impl Cuttable,
+) -> Tree {
+    let count = primitives.len();
+    assert!(count < ChildRef::CAPACITY, "too many primitives for one tree");
     let mut items = items(primitives);
-    let mut nodes;
-    if spatial::cuts(&items, quality) {
-        let budget = (items.len() as f64 * EXTRA_SHARE) as usize;
-        let budget = budget.min(ChildRef::CAPACITY - 1 - items.len());
-        (nodes, items) = spatial::grow(items, budget, quality, triangles);
-    } else {
-        nodes = binary::grow(&mut items, quality);
+    let budget = (items.len() as f64 * EXTRA_SHARE) as usize;
+    let budget = budget.min(ChildRef::CAPACITY - 1 - items.len());
+    let mut nodes = Vec::new();
+    if !items.is_empty() {
+        (nodes, items) = match quality {
+            Quality::Fast => {
+                let extent = Extent::of(&items);
+                (binary::grow(&mut items, &extent, quality), items)
+            }
+            Quality::Balanced => spatial::grow_balanced(items, budget, triangles),
+            Quality::High => spatial::grow(items, budget, triangles),
+        };
     }
+    let mut members = numbers::members(&items);
+    drop(items);
     if quality != Quality::Fast {
-        (nodes, items) = reinsert::reinsert(nodes, items);
+        (nodes, members) = reinsert::reinsert(nodes, members);
     }
     let Some(root) = nodes.first() else { return empty() };
     let bounds = root.bounds;
-    let plans = price::affordable_plans(&nodes, &items, primitives.len());
-    let source = Source { nodes: &nodes, plans: &plans, items: &items };
+    let plans = price::affordable_plans(&nodes, &members, count);
+    let source = Source { nodes: &nodes, plans: &plans, members: &members };
     let Fragment { nodes, leaves, depth } = collapse(source, 0);
     let mut leaves = leaves.concat();
-    let order = order(&items, &mut leaves);
+    let order = numbers::order(members, &mut leaves);
     Tree { nodes, order, leaves, max_depth: depth, bounds }
+}
+
+/// [`tree_over`] a list.
+#[cfg(test)]
+pub fn build(primitives: &[BuildPrimitive], quality: Quality, triangles: &impl Cuttable) -> Tree {
+    tree_over(primitives.par_iter().copied(), quality, triangles)
 }
 
 fn empty() -> Tree {
     Tree { nodes: vec![Node8::EMPTY], leaves: vec![], order: vec![], max_depth: 1, bounds: Aabb::EMPTY }
 }
 
-fn items(primitives: &[BuildPrimitive]) -> Vec<Item> {
-    let item = |(number, primitive): (usize, &BuildPrimitive)| {
+fn items(primitives: impl IndexedParallelIterator<Item = BuildPrimitive>) -> Vec<Item> {
+    let item = |(number, primitive): (usize, BuildPrimitive)| {
         assert!((1..=ChildRef::LAST_KIND).contains(&primitive.kind), "kind {} is no kind", primitive.kind);
-        Item::new(number as u32, primitive)
+        Item::new(number as u32, &primitive)
     };
-    primitives.par_iter().enumerate().with_min_len(GRAIN).map(item).collect()
-}
-
-/// The numbers in the order of the items, sorted within each leaf. A leaf that got two parts of one triangle keeps one,
-/// and what it does not need of its stretch stays unused.
-fn order(items: &[Item], leaves: &mut [Leaf]) -> Vec<u32> {
-    let mut order: Vec<u32> = items.par_iter().with_min_len(GRAIN).map(Item::number).collect();
-    for leaf in leaves {
-        let numbers = &mut order[leaf.first as usize..][..usize::from(leaf.len)];
-        numbers.sort_unstable();
-        leaf.len = dedup(numbers) as u8;
-    }
-    order
-}
-
-/// Moves the first of each run of equals to the front; gives how many there are.
-fn dedup(sorted: &mut [u32]) -> usize {
-    let mut kept = 0;
-    for i in 0..sorted.len() {
-        if kept == 0 || sorted[i] != sorted[kept - 1] {
-            sorted[kept] = sorted[i];
-            kept += 1;
-        }
-    }
-    kept
+    let mut items = Vec::new();
+    reserve(&mut items, primitives.len());
+    items.par_extend(primitives.enumerate().with_min_len(GRAIN).map(item));
+    items
 }
 
 /// Half the surface area; in `f64`, which holds that of any finite box.

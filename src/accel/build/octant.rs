@@ -1,5 +1,7 @@
 //! Which slot of a node each child takes, so that the order of visits needs no sorting.
 
+use wide::{f32x8, f64x4, u32x8};
+
 use crate::math::{Aabb, WIDTH};
 
 /// The child in each slot: rays of octant `o` (bit `k` set when `direction[k] < 0`) visit the slots `0 ^ o, 1 ^ o, ...`
@@ -14,54 +16,131 @@ use crate::math::{Aabb, WIDTH};
 /// section 3.2. Changed: dynamic programming over the 256 sets of taken slots instead of the auction algorithm.
 pub(super) fn assign(children: &[Aabb]) -> [Option<usize>; WIDTH] {
     let costs = costs(children);
-    let (total, choice) = solve(&costs[..children.len()]);
-    let ends = (0..256).filter(|&set: &usize| set.count_ones() as usize == children.len());
+    let total = solve(&costs, children.len());
+    let ends = sets_of(children.len());
     let mut set = ends.reduce(|a, b| if total[b] < total[a] { b } else { a }).unwrap_or(0);
     let mut slots = [None; WIDTH];
     for child in (0..children.len()).rev() {
-        let slot = usize::from(choice[set]);
+        let slot = last_slot(&total, set, costs.map(|costs| costs[child]));
         slots[slot] = Some(child);
         set ^= 1 << slot;
     }
     slots
 }
 
-/// Least total cost of the first children in each set of slots, and the slot of the last of them.
-fn solve(costs: &[[f64; WIDTH]]) -> ([f64; 256], [u8; 256]) {
-    let (mut total, mut choice) = ([0.0; 256], [0; 256]);
-    for set in 1..256_usize {
-        let Some(cost) = costs.get(set.count_ones() as usize - 1) else { continue };
-        let (mut best, mut rest) = (f64::INFINITY, set);
+/// Sets of slots.
+const SETS: usize = 1 << WIDTH;
+/// Sets that stand side by side in a vector: they differ in the first two slots alone.
+const ACROSS: usize = 4;
+
+/// What each child costs, for one slot; zero for children that are not there.
+type Costs = [f64; WIDTH];
+
+/// The sets of so many slots, ascending.
+///
+/// **Source:** Beeler, Gosper and Schroeppel, "HAKMEM", 1972, item 175.
+fn sets_of(count: usize) -> impl Iterator<Item = usize> {
+    let next = |&set: &usize| {
+        let last = set & set.wrapping_neg();
+        let carried = set + last;
+        (set != 0).then(|| (carried ^ set) >> 2 >> last.trailing_zeros() | carried)
+    };
+    std::iter::successors(Some((1 << count) - 1), next).take_while(|&set| set < SETS)
+}
+
+/// Least total cost of the first children in each set of slots that is not larger than their number.
+fn solve(costs: &[Costs; WIDTH], children: usize) -> [f64; SETS] {
+    let mut rows = [f64x4::splat(f64::INFINITY); SETS / ACROSS];
+    let (across, adding) = (across(costs), adding(costs));
+    for set in 0..rows.len() {
+        let taken = set.count_ones() as usize;
+        if taken > children {
+            continue;
+        }
+        let (mut least, mut rest) = (f64x4::splat(f64::INFINITY), set);
+        if set == 0 {
+            least = f64x4::new([0.0, f64::INFINITY, f64::INFINITY, f64::INFINITY]);
+        }
         while rest != 0 {
-            let slot = rest.trailing_zeros() as usize & 7;
-            let with = total[set & !(1 << slot)] + cost[slot];
-            choice[set] = if with < best { slot as u8 } else { choice[set] };
-            best = best.min(with);
+            let slot = rest.trailing_zeros() as usize;
+            least = least.fast_min(rows[set & !(1 << slot)] + adding[taken - 1][slot % WIDTH]);
             rest &= rest - 1;
         }
-        total[set] = best;
+        let [one, first, second] = across[taken];
+        least = least.fast_min(shuffle(least, [0; 4]) + one);
+        let both = (shuffle(least, [2; 4]) + first).fast_min(shuffle(least, [1; 4]) + second);
+        rows[set] = least.fast_min(both);
     }
-    (total, choice)
+    bytemuck::cast(rows)
 }
 
-/// Cost of each child in each slot; zero for children that are not there.
-fn costs(children: &[Aabb]) -> [[f64; WIDTH]; WIDTH] {
+#[inline(always)]
+fn shuffle(row: f64x4, [a, b, c, d]: [u32; 4]) -> f64x4 {
+    let halves = [2 * a, 2 * a + 1, 2 * b, 2 * b + 1, 2 * c, 2 * c + 1, 2 * d, 2 * d + 1];
+    bytemuck::cast(bytemuck::cast::<f64x4, f32x8>(row).shuffle_wrapping(u32x8::new(halves)))
+}
+
+/// What it costs to put the next child into the first slot or the second where neither is taken, into the first where the second
+/// is, and into the second where the first is; by the number of children in other slots.
+#[inline(always)]
+fn across([first, second, ..]: &[Costs; WIDTH]) -> [[f64x4; 3]; WIDTH - 1] {
+    const NO: f64 = f64::INFINITY;
+    std::array::from_fn(|child| {
+        let one = [NO, first[child], second[child], NO];
+        [one, [NO, NO, NO, first[child + 1]], [NO, NO, NO, second[child + 1]]].map(f64x4::new)
+    })
+}
+
+/// What it costs to put the next child into each of the other slots, by the number of children that are in such: side by side
+/// where none, either or both of the first two are taken too.
+#[inline(always)]
+fn adding([_, _, others @ ..]: &[Costs; WIDTH]) -> [[f64x4; WIDTH]; WIDTH - 2] {
+    let mut adding = [[f64x4::ZERO; WIDTH]; WIDTH - 2];
+    for (slot, costs) in others.iter().enumerate() {
+        let [a, b, c, d, e, f, g, h] = *costs;
+        let next = [[a, b, c, d], [b, c, d, e], [c, d, e, f], [d, e, f, g], [e, f, g, h], [f, g, h, h]];
+        for (adding, next) in adding.iter_mut().zip(next) {
+            adding[slot] = shuffle(f64x4::new(next), [0, 1, 1, 2]);
+        }
+    }
+    adding
+}
+
+/// The slot of the last child in a set: the first of those that are as good.
+#[inline(always)]
+fn last_slot(total: &[f64; SETS], set: usize, cost: [f64; WIDTH]) -> usize {
+    let is_last = |slot: usize| {
+        let bit = 1 << slot;
+        set & bit != 0 && total[set & !bit & (SETS - 1)] + cost[slot] == total[set]
+    };
+    let slots = (0..WIDTH).fold(0_u32, |slots, slot| slots | u32::from(is_last(slot)) << slot);
+    slots.trailing_zeros() as usize % WIDTH
+}
+
+/// For each slot what each child costs there.
+#[inline(always)]
+fn costs(children: &[Aabb]) -> [Costs; WIDTH] {
     let node = children.iter().fold(Aabb::EMPTY, |all, child| all.join(*child)).center();
-    let mut costs = [[0.0; WIDTH]; WIDTH];
-    for (row, child) in costs.iter_mut().zip(children) {
+    let mut offsets = [[0.0; WIDTH]; 3];
+    for (i, child) in children.iter().enumerate() {
         let center = child.center();
-        let offset: [f64; 3] = std::array::from_fn(|k| finite(f64::from(center[k]) - f64::from(node[k])));
-        *row = std::array::from_fn(|slot| along(offset, slot));
+        for k in 0..3 {
+            offsets[k][i % WIDTH] = finite(f64::from(center[k]) - f64::from(node[k]));
+        }
     }
-    costs
+    let offsets = offsets.map(bytemuck::cast::<Costs, [f64x4; 2]>);
+    std::array::from_fn(|slot| bytemuck::cast([0, 1].map(|half| along(offsets.map(|o| o[half]), slot))))
 }
 
-/// How far `offset` reaches along the direction whose signs are the bits of `octant`.
-fn along(offset: [f64; 3], octant: usize) -> f64 {
-    (0..3).map(|k| if octant >> k & 1 == 0 { offset[k] } else { -offset[k] }).sum()
+/// How far offsets reach along the direction whose signs are the bits of `octant`.
+#[inline(always)]
+fn along(offset: [f64x4; 3], octant: usize) -> f64x4 {
+    let [x, y, z] = std::array::from_fn(|k| if octant >> k & 1 == 0 { offset[k] } else { -offset[k] });
+    x + y + z
 }
 
 /// Infinite boxes have no middle; any slot suits them.
+#[inline(always)]
 fn finite(x: f64) -> f64 {
     if x.is_finite() { x } else { 0.0 }
 }
@@ -104,7 +183,7 @@ mod tests {
             prop_assert!(seen.into_iter().eq(0..children.len()));
             for octant in 0..WIDTH {
                 if let (Some(first), Some(last)) = (slots[octant], slots[octant ^ 7]) {
-                    let at = |child: usize| along(centers[child].map(f64::from), octant);
+                    let at = |child: usize| along(centers[child].map(|x| f64x4::splat(f64::from(x))), octant).to_array()[0];
                     prop_assert!(at(first) <= at(last) + 1e-3);
                 }
             }
@@ -118,7 +197,7 @@ mod tests {
         ) {
             let children: Vec<Aabb> = centers.iter().map(|&c| point(c)).collect();
             let (slots, costs) = (assign(&children), costs(&children));
-            let cost = |child: Option<usize>, slot: usize| child.map_or(0.0, |c| costs[c][slot]);
+            let cost = |child: Option<usize>, slot: usize| child.map_or(0.0, |c| costs[slot][c]);
             let (kept, swapped) =
                 (cost(slots[a], a) + cost(slots[b], b), cost(slots[a], b) + cost(slots[b], a));
             prop_assert!(kept <= swapped + 1e-9);

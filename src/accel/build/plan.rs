@@ -5,7 +5,8 @@
 //! section 3.1. Changed: a leaf costs one block however full it is, and holds one kind of primitive.
 
 use super::binary::BinaryNode;
-use super::item::{GRAIN, Item};
+use super::item::GRAIN;
+use super::numbers::Member;
 use super::{BLOCK_BYTES, BLOCK_CYCLES, LEAF_SIZE, NODE_BYTES, NODE_CYCLES, SOLITARY, half_area};
 use crate::math::WIDTH;
 
@@ -33,6 +34,11 @@ impl Plan {
     /// True if the subtree is one leaf.
     pub(super) fn is_leaf(&self) -> bool {
         self.left[0] == 0
+    }
+
+    /// The kind of a leaf.
+    pub(super) fn kind(&self) -> u8 {
+        self.kind
     }
 
     /// Bytes of the block of a leaf, where they count.
@@ -103,17 +109,17 @@ fn share(a: &Plan, b: &Plan, roots: usize) -> (f32, u8) {
 /// What plans are made of.
 struct Solver<'a> {
     nodes: &'a [BinaryNode],
-    items: &'a [Item],
+    members: &'a [Member],
     /// Half the area of the whole tree.
     whole: f64,
     price: f32,
 }
 
 /// Makes the plans of all binary nodes where a byte costs a ray as much as so many cycles.
-pub(super) fn solve(nodes: &[BinaryNode], items: &[Item], price: f32, plans: &mut Vec<Plan>) {
+pub(super) fn solve(nodes: &[BinaryNode], members: &[Member], price: f32, plans: &mut Vec<Plan>) {
     plans.resize(nodes.len(), Plan::UNKNOWN);
     if let Some(root) = nodes.first() {
-        Solver { nodes, items, whole: half_area(&root.bounds), price }.solve(plans);
+        Solver { nodes, members, whole: half_area(&root.bounds), price }.solve(plans);
     }
 }
 
@@ -137,7 +143,7 @@ impl Solver<'_> {
         let node = &self.nodes[at];
         let area = (half_area(&node.bounds) / self.whole).max(LEAST_AREA) as f32;
         plans[at] = if node.right == 0 {
-            Plan::of_leaf(area, self.price, self.items[node.first as usize].kind())
+            Plan::of_leaf(area, self.price, self.members[node.first as usize].kind())
         } else {
             let below = [&plans[at + 1], &plans[at + node.right as usize]];
             Plan::of_inner(area, self.price, node.len, below)

@@ -7,7 +7,8 @@
 
 use super::NODE_BYTES;
 use super::binary::BinaryNode;
-use super::item::{GRAIN, Item};
+use super::item::GRAIN;
+use super::numbers::Member;
 use super::plan::{Plan, solve};
 
 /// Nodes and blocks may take this for each primitive. Rays a second through a ball of hair (192 thousand triangles, 121 bytes
@@ -28,19 +29,19 @@ const STEPS: u8 = 12;
 const NEAR: f64 = 0.92;
 
 /// The plans of all binary nodes over so many primitives, cut ones counted once.
-pub(super) fn affordable_plans(nodes: &[BinaryNode], items: &[Item], primitives: usize) -> Vec<Plan> {
+pub(super) fn affordable_plans(nodes: &[BinaryNode], members: &[Member], primitives: usize) -> Vec<Plan> {
     let mut plans = Vec::new();
-    solve(nodes, items, 0.0, &mut plans);
+    solve(nodes, members, 0.0, &mut plans);
     let most = (primitives * MOST_BYTES).max(SMALL);
     let bytes = bytes(nodes, &plans, 0, 1);
-    if bytes <= most { plans } else { search(nodes, items, plans, bytes, most) }
+    if bytes <= most { plans } else { search(nodes, members, plans, bytes, most) }
 }
 
 /// Plans at a price at which the tree takes no more than `most` bytes, and near as many; where no price is high enough, those
 /// at the highest. Begins with the plans at no price, which are for so many bytes.
 fn search(
     nodes: &[BinaryNode],
-    items: &[Item],
+    members: &[Member],
     mut plans: Vec<Plan>,
     free_bytes: usize,
     most: usize,
@@ -51,7 +52,7 @@ fn search(
     let mut best = Vec::new();
     for round in 0..STEPS {
         let power = bracket.next(round);
-        solve(nodes, items, average * power.exp2(), &mut plans);
+        solve(nodes, members, average * power.exp2(), &mut plans);
         let bytes = bytes(nodes, &plans, 0, 1);
         if bytes <= most {
             std::mem::swap(&mut best, &mut plans);

@@ -4,9 +4,13 @@
 //! Changed: a side costs its leaf blocks, as in [`super::bins`]; what is no triangle is not cut and goes where its
 //! centre is.
 
+mod grid;
+
 use super::bins::Side;
+use super::box8::Box8;
 use super::cut::{Cuttable, Sweep};
-use super::item::{Box4, Extent, Item, reduce};
+use super::item::{Extent, Item, reduce};
+use grid::{Grid, Spread};
 
 /// Most bins on an axis, and bins for ranges in which nearly every triangle would reach across several of so many.
 const MANY: usize = 16;
@@ -24,56 +28,56 @@ pub(super) struct Slab {
     high: Side,
 }
 
-/// The planes between bins of an axis.
-#[derive(Clone, Copy)]
-struct Grid {
-    axis: usize,
-    bins: usize,
-    start: f32,
-    step: f32,
-    bins_a_unit: f32,
-}
-
-impl Grid {
-    /// `None` where there is nothing to cut.
-    fn new(bounds: &Box4, axis: usize, bins: usize) -> Option<Self> {
-        let (start, end) = (bounds.lo.to_array()[axis], bounds.hi.to_array()[axis]);
-        let (step, bins_a_unit) = ((end - start) / bins as f32, bins as f32 / (end - start));
-        let apart = start + step > start && end - step < end;
-        let usable = step.is_normal() && bins_a_unit.is_normal() && apart;
-        usable.then_some(Self { axis, bins, start, step, bins_a_unit })
-    }
-    /// The plane below a bin.
-    fn plane(&self, bin: usize) -> f32 {
-        self.start + self.step * bin as f32
-    }
-    fn bin(&self, place: f32) -> usize {
-        (((place - self.start) * self.bins_a_unit) as usize).min(self.bins - 1)
-    }
-}
-
 /// What is in a bin, and how many begin and end there.
 #[derive(Clone, Copy)]
 struct Bin {
-    bounds: Box4,
+    bounds: Box8,
     enter: u32,
     exit: u32,
 }
 
 type Bins = [[Bin; MANY]; 3];
 
+/// How planes cut what is put into bins.
+#[derive(Clone, Copy)]
+pub(super) enum Parts {
+    /// Boxes of the parts of triangles.
+    Triangles,
+    /// Parts of the boxes of triangles, which are found faster and no smaller. For the first cut of all, with many more items on
+    /// either side than are cut, they choose the same plane.
+    Boxes,
+}
+
 /// The best plane through a range; `None` if none has items on both sides.
-pub(super) fn best_slab(items: &[Item], extent: &Extent, triangles: &impl Cuttable) -> Option<Slab> {
-    let bins = if items.len() < FEW_ITEMS { FEW } else { MANY };
-    let grids = [0, 1, 2].map(|axis| Grid::new(&extent.bounds, axis, bins));
-    let run = |run: &[Item]| {
-        let mut bins = [[Bin { bounds: Box4::EMPTY, enter: 0, exit: 0 }; MANY]; 3];
-        run.iter().for_each(|item| put(&mut bins, &grids, item, triangles));
-        bins
+pub(super) fn best_slab(
+    items: &[Item],
+    extent: &Extent,
+    parts: Parts,
+    triangles: &impl Cuttable,
+) -> Option<Slab> {
+    let count = if items.len() < FEW_ITEMS { FEW } else { MANY };
+    let grids = [0, 1, 2].map(|axis| Grid::new(&extent.bounds, axis, count));
+    let bins = match parts {
+        Parts::Triangles => filled(items, |bins, item| put(bins, &grids, item, triangles)),
+        Parts::Boxes => {
+            let layers = Layers::new(&grids, count);
+            filled(items, |bins, item| layers.put(bins, &grids, item, triangles))
+        }
     };
-    let bins = reduce(items, &run, &join);
     let best = grids.iter().zip(&bins).filter_map(|(grid, bins)| best_on(grid.as_ref()?, bins));
     best.reduce(|a, b| if b.cost < a.cost { b } else { a })
+}
+
+/// Bins with all items, which take turns between two sets of them as in [`super::bins`].
+fn filled(items: &[Item], put: impl Fn(&mut Bins, &Item) + Sync) -> Bins {
+    let run = |run: &[Item]| {
+        let mut sets = [[[Bin { bounds: Box8::EMPTY, enter: 0, exit: 0 }; MANY]; 3]; 2];
+        for (i, item) in run.iter().enumerate() {
+            put(&mut sets[i & 1], item);
+        }
+        join(sets[0], sets[1])
+    };
+    reduce(items, &run, &join)
 }
 
 fn join(mut a: Bins, b: Bins) -> Bins {
@@ -87,10 +91,9 @@ fn join(mut a: Bins, b: Bins) -> Bins {
 
 /// Puts an item into the bins of each axis, cut by the planes between them.
 fn put(bins: &mut Bins, grids: &[Option<Grid>; 3], item: &Item, triangles: &impl Cuttable) {
-    let (lo, hi) = (item.bounds.lo.to_array(), item.bounds.hi.to_array());
     for (grid, bins) in grids.iter().zip(bins) {
         let Some(grid) = grid else { continue };
-        let (lo, hi) = (lo[grid.axis], hi[grid.axis]);
+        let [lo, hi] = item.bounds.along(grid.axis);
         let (first, last) = (grid.bin(lo), grid.bin(hi));
         if first == last {
             put_whole(&mut bins[first], item);
@@ -104,6 +107,38 @@ fn put(bins: &mut Bins, grids: &[Option<Grid>; 3], item: &Item, triangles: &impl
     }
 }
 
+/// What the bins of each axis hold, and how to find them.
+struct Layers {
+    spread: Spread,
+    layers: [[Box8; MANY]; 3],
+}
+
+impl Layers {
+    fn new(grids: &[Option<Grid>; 3], bins: usize) -> Self {
+        let layers =
+            grids.map(|grid| std::array::from_fn(|bin| grid.map_or(Box8::EMPTY, |grid| grid.layer(bin))));
+        Self { spread: Spread::new(grids, bins), layers }
+    }
+
+    /// Puts the parts of the box of an item into the bins of each axis.
+    #[inline(always)]
+    fn put(&self, bins: &mut Bins, grids: &[Option<Grid>; 3], item: &Item, triangles: &impl Cuttable) {
+        let [first, last] = self.spread.ends(item);
+        if !triangles.is_cuttable(item.number()) {
+            return put(bins, grids, item, triangles);
+        }
+        for ((axis, bins), layers) in bins.iter_mut().enumerate().zip(&self.layers) {
+            let (first, last) = (first[axis], last[axis]);
+            for (bin, &layer) in bins[first..=last].iter_mut().zip(&layers[first..=last]) {
+                bin.bounds = bin.bounds.join(item.bounds.intersection(layer));
+            }
+            bins[first].enter += 1;
+            bins[last].exit += 1;
+        }
+    }
+}
+
+#[inline(always)]
 fn put_whole(bin: &mut Bin, item: &Item) {
     bin.bounds = bin.bounds.join(item.bounds);
     bin.enter += 1;
@@ -162,7 +197,7 @@ impl Slab {
     }
 
     fn sides(&mut self, item: &Item, triangles: &impl Cuttable) -> [Option<Item>; 2] {
-        let (lo, hi) = (item.bounds.lo.to_array()[self.axis], item.bounds.hi.to_array()[self.axis]);
+        let [lo, hi] = item.bounds.along(self.axis);
         if hi <= self.at {
             return [Some(*item), None];
         }

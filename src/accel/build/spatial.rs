@@ -3,11 +3,15 @@
 //! **Source:** Stich, Friedrich and Dietrich, "Spatial Splits in Bounding Volume Hierarchies", 2009. Changed: a budget
 //! bounds the references that cuts may add; the halves of a range share what is left by their lengths.
 
+use rayon::prelude::*;
+use wide::f64x4;
+
 use super::binary::{self, BinaryNode};
 use super::bins::best_cut_and_overlap;
+use super::box8::Box8;
 use super::cut::Cuttable;
-use super::item::{Extent, Item};
-use super::slab::best_slab;
+use super::item::{Extent, Item, Parted};
+use super::slab::{Parts, best_slab};
 use super::split::{halvings, part_by};
 use super::{MAX_DEPTH, Quality};
 
@@ -35,28 +39,48 @@ struct Grown {
     items: Vec<Item>,
 }
 
-/// True if a tree of this quality tries planes that cut.
-pub(super) fn cuts(items: &[Item], quality: Quality) -> bool {
-    let has_large = || {
-        let large = LARGE * Extent::of(items).bounds.half_area();
-        items.iter().any(|item| item.bounds.half_area() > large)
-    };
-    quality == Quality::High || (quality == Quality::Balanced && has_large())
+/// True if an item is large for the whole.
+fn has_large(items: &[Item], extent: &Extent) -> bool {
+    let large = LARGE * extent.bounds.half_area();
+    let four = |items: &[Item]| Box8::half_areas([0, 1, 2, 3].map(|i| items[i.min(items.len() - 1)].bounds));
+    items
+        .par_chunks(GRAIN)
+        .any(|items| items.chunks(4).any(|items| four(items).simd_gt(f64x4::splat(large)).any()))
 }
 
-/// The nodes over all items, and the items in the order of the leaves; `budget` references may be added.
+/// The nodes over all items, of which there are some, and the items in the order of the leaves: the whole may be parted by a
+/// plane that cuts, to which `budget` references may be added.
+pub(super) fn grow_balanced(
+    mut items: Vec<Item>,
+    budget: usize,
+    triangles: &impl Cuttable,
+) -> (Vec<BinaryNode>, Vec<Item>) {
+    let (quality, extent) = (Quality::Balanced, Extent::of(&items));
+    if items.len() < LEAST_ITEMS || !has_large(&items, &extent) {
+        let nodes = binary::grow(&mut items, &extent, quality);
+        return (nodes, items);
+    }
+    let parted = match Grower::new(&extent, quality, triangles).part(&mut items, &extent, budget) {
+        Sides::InPlace(parted) => parted,
+        Sides::Apart([low, mut high]) => {
+            let middle = low.len();
+            items = low;
+            items.append(&mut high);
+            Parted::at(&items, middle)
+        }
+    };
+    let nodes = binary::grow_parted(&mut items, &extent, parted, quality);
+    (nodes, items)
+}
+
+/// The nodes over all items, of which there are some, and the items in the order of the leaves; `budget` references may be
+/// added.
 pub(super) fn grow(
     items: Vec<Item>,
     budget: usize,
-    quality: Quality,
     triangles: &impl Cuttable,
 ) -> (Vec<BinaryNode>, Vec<Item>) {
-    if items.is_empty() {
-        return Default::default();
-    }
-    let whole = Extent::of(&items).bounds.half_area();
-    let least_items = if quality == Quality::High { LEAST_ITEMS } else { items.len().max(LEAST_ITEMS) };
-    let grower = Grower { triangles, quality, least_items, least_overlap: LEAST_OVERLAP * whole };
+    let grower = Grower::new(&Extent::of(&items), Quality::High, triangles);
     let mut grown = grower.grow(items, budget, 0);
     binary::number(&mut grown.nodes);
     (grown.nodes, grown.items)
@@ -65,8 +89,19 @@ pub(super) fn grow(
 struct Grower<'a, C> {
     triangles: &'a C,
     quality: Quality,
-    least_items: usize,
     least_overlap: f64,
+}
+
+/// A range that was parted: as it stood, or in two.
+enum Sides {
+    InPlace(Parted),
+    Apart([Vec<Item>; 2]),
+}
+
+impl<'a, C> Grower<'a, C> {
+    fn new(whole: &Extent, quality: Quality, triangles: &'a C) -> Self {
+        Self { triangles, quality, least_overlap: LEAST_OVERLAP * whole.bounds.half_area() }
+    }
 }
 
 impl<C: Cuttable> Grower<'_, C> {
@@ -79,7 +114,7 @@ impl<C: Cuttable> Grower<'_, C> {
     fn grow_onto(&self, grown: &mut Grown, mut items: Vec<Item>, budget: usize, depth: u32) {
         // Enough levels must remain for halving, also of what is added.
         let deep = depth + halvings(items.len() + budget) + 1 >= MAX_DEPTH;
-        if items.len() < self.least_items || budget == 0 || deep {
+        if items.len() < LEAST_ITEMS || budget == 0 || deep {
             binary::grow_onto(&mut grown.nodes, &mut items, depth, self.quality);
             grown.items.append(&mut items);
             return;
@@ -87,7 +122,13 @@ impl<C: Cuttable> Grower<'_, C> {
         let extent = Extent::of(&items);
         let at = grown.nodes.len();
         grown.nodes.push(BinaryNode::leaf(&extent, 0, items.len()));
-        let [low, high] = self.part(items, &extent, budget);
+        let [low, high] = match self.part(&mut items, &extent, budget) {
+            Sides::Apart(sides) => sides,
+            Sides::InPlace(Parted { middle, .. }) => {
+                let high = items.split_off(middle);
+                [items, high]
+            }
+        };
         let len = low.len() + high.len();
         let left = budget.saturating_sub(len - grown.nodes[at].len as usize);
         let share = (left as u128 * low.len() as u128 / len as u128) as usize;
@@ -108,15 +149,13 @@ impl<C: Cuttable> Grower<'_, C> {
     }
 
     /// The two sides of a range: by a plane that cuts if that is cheaper and within the budget.
-    fn part(&self, mut items: Vec<Item>, extent: &Extent, budget: usize) -> [Vec<Item>; 2] {
-        let (cut, overlap) = best_cut_and_overlap(&items, extent);
+    fn part(&self, items: &mut [Item], extent: &Extent, budget: usize) -> Sides {
+        let (cut, overlap) = best_cut_and_overlap(items, extent);
         let worth = cut.filter(|_| overlap > self.least_overlap);
-        if let Some(sides) = worth.and_then(|cut| self.part_space(&items, extent, budget, cut.cost)) {
-            return sides;
+        match worth.and_then(|cut| self.part_space(items, extent, budget, cut.cost)) {
+            Some(sides) => Sides::Apart(sides),
+            None => Sides::InPlace(part_by(items, extent, cut)),
         }
-        let middle = part_by(&mut items, extent, cut);
-        let high = items.split_off(middle);
-        [items, high]
     }
 
     /// The two sides of a plane that cuts what crosses it, for less than `beaten` and within the budget.
@@ -127,7 +166,8 @@ impl<C: Cuttable> Grower<'_, C> {
         budget: usize,
         beaten: f64,
     ) -> Option<[Vec<Item>; 2]> {
-        let slab = best_slab(items, extent, self.triangles)?;
+        let parts = if self.quality == Quality::High { Parts::Triangles } else { Parts::Boxes };
+        let slab = best_slab(items, extent, parts, self.triangles)?;
         if WORTH * slab.cost >= beaten || slab.extra(items.len()) > budget {
             return None;
         }

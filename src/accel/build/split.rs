@@ -1,7 +1,8 @@
 //! Where a range of primitives parts in two, or that it stays one leaf.
 
 use super::bins::{Cut, best_cut, part, quick_cut};
-use super::item::{Extent, Item, longest_axis, partition};
+use super::item::{Extent, Item, Parted};
+use super::small::part_small;
 use super::{BLOCK_BYTES, LEAF_SIZE, MAX_DEPTH, Quality, SOLITARY};
 
 /// What a split must save to part a range that fits one leaf, in blocks. Above the 0.08 that are a node's cycles over a
@@ -13,7 +14,7 @@ const SPLIT_COST: f64 = 0.2;
 /// Reorders the range and gives the place where it parts; `None` if it is best as a leaf.
 ///
 /// `depth` is the number of splits above. Near [`MAX_DEPTH`] only halving is left, so no input can build deeper.
-pub(super) fn split(items: &mut [Item], extent: &Extent, depth: u32, quality: Quality) -> Option<usize> {
+pub(super) fn split(items: &mut [Item], extent: &Extent, depth: u32, quality: Quality) -> Option<Parted> {
     let few = items.len() <= LEAF_SIZE;
     let one_kind = few && items.iter().all(|item| item.kind() == items[0].kind());
     let fits_leaf = one_kind && (items.len() == 1 || items[0].kind() != SOLITARY);
@@ -28,16 +29,18 @@ pub(super) fn split(items: &mut [Item], extent: &Extent, depth: u32, quality: Qu
     }
     // Most ranges fit a leaf. Of trees in which triangles part there across the longest axis alone rays visit no more nodes
     // and, through hair, 2% more blocks; through spheres it would be 5 to 10% more blocks.
-    let quick = fits_leaf && BLOCK_BYTES[usize::from(items[0].kind())] > 0;
-    let cut = if quick { quick_cut(items, extent) } else { best_cut(items, extent) };
-    if fits_leaf && cut.is_none_or(|cut| !pays(&cut, extent)) {
+    if fits_leaf && BLOCK_BYTES[usize::from(items[0].kind())] > 0 {
+        return part_small(items, extent, leaves_may_cost(extent));
+    }
+    let cut = best_cut(items, extent);
+    if fits_leaf && cut.is_none_or(|cut| cut.cost >= leaves_may_cost(extent)) {
         return None;
     }
     Some(part_by(items, extent, cut))
 }
 
 /// Parts the range at the cut; without one in halves.
-pub(super) fn part_by(items: &mut [Item], extent: &Extent, cut: Option<Cut>) -> usize {
+pub(super) fn part_by(items: &mut [Item], extent: &Extent, cut: Option<Cut>) -> Parted {
     match cut {
         Some(cut) => part(items, extent, &cut),
         None => halve(items, extent),
@@ -49,29 +52,28 @@ pub(super) fn halvings(len: usize) -> u32 {
     usize::BITS - len.leading_zeros()
 }
 
-/// True if two leaves cost less than the one that would hold both.
-fn pays(cut: &Cut, extent: &Extent) -> bool {
-    let one_leaf = extent.bounds.half_area();
-    SPLIT_COST * one_leaf + cut.cost < one_leaf
+/// What two leaves cost less than if they pay instead of the one that would hold both.
+fn leaves_may_cost(extent: &Extent) -> f64 {
+    (1.0 - SPLIT_COST) * extent.bounds.half_area()
 }
 
 /// Parts the range at the median of the centroids on their longest axis; on a tie by number, so that the result depends
 /// on nothing else. The left side fills whole leaves.
-fn halve(items: &mut [Item], extent: &Extent) -> usize {
-    let axis = longest_axis(extent.centroids);
+fn halve(items: &mut [Item], extent: &Extent) -> Parted {
+    let axis = extent.centroids.longest_axis();
     let half = items.len() / 2;
     let middle = if items.len() > LEAF_SIZE { half.next_multiple_of(LEAF_SIZE) } else { half };
-    let place = |item: &Item| item.centroid().to_array()[axis];
     items.select_nth_unstable_by(middle, |a, b| {
-        place(a).total_cmp(&place(b)).then(a.number().cmp(&b.number()))
+        a.place(axis).total_cmp(&b.place(axis)).then(a.number().cmp(&b.number()))
     });
-    middle
+    Parted::at(items, middle)
 }
 
 /// Moves the least kind to the left.
-fn split_off_kind(items: &mut [Item]) -> usize {
-    let least = items.iter().map(Item::kind).min().unwrap_or_default();
-    partition(items, &|item| item.kind() == least)
+fn split_off_kind(items: &mut [Item]) -> Parted {
+    items.sort_unstable_by_key(|item| (item.kind(), item.number()));
+    let middle = items.partition_point(|item| item.kind() == items[0].kind());
+    Parted::at(items, middle)
 }
 
 #[cfg(test)]
@@ -91,7 +93,8 @@ mod tests {
 
     /// Splits above the deepest leaf.
     fn depth(items: &mut [Item], above: u32) -> u32 {
-        let Some(middle) = split(items, &Extent::of(items), above, Quality::Balanced) else { return above };
+        let parted = split(items, &Extent::of(items), above, Quality::Balanced);
+        let Some(Parted { middle, .. }) = parted else { return above };
         assert!(0 < middle && middle < items.len());
         let (left, right) = items.split_at_mut(middle);
         depth(left, above + 1).max(depth(right, above + 1))
@@ -101,7 +104,8 @@ mod tests {
     fn near_the_greatest_depth_only_halving_is_left() {
         let mut items = outward(1);
         let start = MAX_DEPTH - halvings(items.len());
-        assert_eq!(split(&mut items, &Extent::of(&outward(1)), start, Quality::Balanced), Some(56));
+        let parted = split(&mut items, &Extent::of(&outward(1)), start, Quality::Balanced);
+        assert_eq!(parted.map(|parted| parted.middle), Some(56));
         for kinds in 1..=6 {
             for start in 0..=start {
                 assert!(depth(&mut outward(kinds), start) <= MAX_DEPTH);
@@ -113,7 +117,7 @@ mod tests {
     fn halves_are_ordered_and_ties_go_by_number() {
         let mut items = outward(1);
         let extent = Extent::of(&items);
-        let middle = halve(&mut items, &extent);
+        let Parted { middle, .. } = halve(&mut items, &extent);
         let key = |item: &Item| (item.centroid().to_array()[0], item.number());
         let last = items[..middle].iter().map(key).max_by(|a, b| a.partial_cmp(b).unwrap());
         assert!(items[middle..].iter().all(|item| Some(key(item)) > last));
@@ -122,7 +126,8 @@ mod tests {
     #[test]
     fn the_least_kind_is_split_off_first() {
         let mut items = outward(3)[..8].to_vec();
-        let middle = split(&mut items, &Extent::of(&outward(3)[..8]), 0, Quality::Balanced).unwrap();
+        let parted = split(&mut items, &Extent::of(&outward(3)[..8]), 0, Quality::Balanced);
+        let Parted { middle, .. } = parted.unwrap();
         assert_eq!(middle, 3);
         assert!(items[..middle].iter().all(|item| item.kind() == 1));
     }

@@ -2,12 +2,13 @@
 
 use super::super::MAX_DEPTH;
 use super::super::binary::{self, BinaryNode};
-use super::super::item::{Box4, Item};
+use super::super::box8::Box8;
+use super::Links;
 
 /// A node. Siblings stand side by side, the first at an odd place; the root is at 0.
 #[derive(Clone, Copy)]
 struct LinkedNode {
-    bounds: Box4,
+    bounds: Box8,
     /// The first child; 0 for a leaf.
     below: u32,
     /// Where a leaf is in the tree as it came.
@@ -22,7 +23,7 @@ pub(super) struct Linked {
 }
 
 /// The other child of the parent of a node that is not the root.
-pub(super) fn sibling(at: u32) -> u32 {
+fn sibling(at: u32) -> u32 {
     ((at - 1) ^ 1) + 1
 }
 
@@ -30,11 +31,34 @@ fn pair(at: u32) -> usize {
     (at as usize - 1) / 2
 }
 
+impl Links for Linked {
+    fn len(&self) -> usize {
+        self.nodes.len()
+    }
+    #[inline(always)]
+    fn bounds(&self, at: u32) -> Box8 {
+        self.nodes[at as usize].bounds
+    }
+    #[inline(always)]
+    fn children(&self, at: u32) -> Option<[u32; 2]> {
+        let below = self.nodes[at as usize].below;
+        (below != 0).then_some([below, below + 1])
+    }
+    #[inline(always)]
+    fn parent(&self, at: u32) -> u32 {
+        self.parents[pair(at)]
+    }
+    #[inline(always)]
+    fn sibling(&self, at: u32) -> u32 {
+        sibling(at)
+    }
+}
+
 impl Linked {
     /// `None` if there are no nodes.
     pub(super) fn of(tree: &[BinaryNode]) -> Option<Self> {
         let node =
-            |leaf: usize| LinkedNode { bounds: Box4::of(&tree[leaf].bounds), below: 0, leaf: leaf as u32 };
+            |leaf: usize| LinkedNode { bounds: Box8::of(&tree[leaf].bounds), below: 0, leaf: leaf as u32 };
         let root = (!tree.is_empty()).then(|| node(0))?;
         let (mut nodes, mut parents) = (Vec::with_capacity(tree.len()), Vec::with_capacity(tree.len() / 2));
         nodes.push(root);
@@ -51,24 +75,6 @@ impl Linked {
             stack.extend([(from + right, below + 1), (from + 1, below)]);
         }
         Some(Self { nodes, parents })
-    }
-
-    pub(super) fn len(&self) -> usize {
-        self.nodes.len()
-    }
-
-    pub(super) fn bounds(&self, at: u32) -> Box4 {
-        self.nodes[at as usize].bounds
-    }
-
-    /// **Needs:** not the root.
-    pub(super) fn parent(&self, at: u32) -> u32 {
-        self.parents[pair(at)]
-    }
-
-    pub(super) fn children(&self, at: u32) -> Option<[u32; 2]> {
-        let below = self.nodes[at as usize].below;
-        (below != 0).then_some([below, below + 1])
     }
 
     /// True if a node is another or in the subtree below it.
@@ -119,12 +125,12 @@ impl Linked {
         }
     }
 
-    /// Nodes and items in depth-first order, given those from which the tree came; `None` if it became too deep.
-    pub(super) fn laid_out(
+    /// Nodes and what leaves hold in depth-first order, given those from which the tree came; `None` if it became too deep.
+    pub(super) fn laid_out<T: Copy>(
         &self,
         tree: &[BinaryNode],
-        items: &[Item],
-    ) -> Option<(Vec<BinaryNode>, Vec<Item>)> {
+        items: &[T],
+    ) -> Option<(Vec<BinaryNode>, Vec<T>)> {
         let (mut nodes, mut order) = (Vec::with_capacity(tree.len()), Vec::with_capacity(items.len()));
         // Nodes with the splits above them, and right children with where the parent went.
         let mut stack = vec![(0, 0, None)];
@@ -135,8 +141,8 @@ impl Linked {
                 parent.right = (here - parent.right as usize) as u32;
             }
             let node = self.nodes[at as usize];
-            let came = tree[node.leaf as usize];
             let Some([left, right]) = self.children(at) else {
+                let came = tree[node.leaf as usize];
                 nodes.push(came);
                 order.extend_from_slice(&items[came.first as usize..][..came.len as usize]);
                 continue;
@@ -144,7 +150,7 @@ impl Linked {
             if depth == MAX_DEPTH {
                 return None;
             }
-            nodes.push(BinaryNode { bounds: node.bounds.to_aabb(), right: here as u32, ..came });
+            nodes.push(BinaryNode { bounds: node.bounds.to_aabb(), right: here as u32, first: 0, len: 0 });
             stack.extend([(right, depth + 1, Some(here)), (left, depth + 1, None)]);
         }
         binary::number(&mut nodes);

@@ -1,6 +1,7 @@
 use proptest::prelude::*;
 
 use super::super::binary::grow;
+use super::super::item::{Extent, Item};
 use super::super::tests::{cube, unit};
 use super::super::{BuildPrimitive, MAX_DEPTH, Quality};
 use super::*;
@@ -25,14 +26,15 @@ fn items(primitives: &[BuildPrimitive]) -> Vec<Item> {
 
 fn grown(primitives: &[BuildPrimitive]) -> (Vec<BinaryNode>, Vec<Item>) {
     let mut items = items(primitives);
-    (grow(&mut items, Quality::Balanced), items)
+    let extent = Extent::of(&items);
+    (grow(&mut items, &extent, Quality::Balanced), items)
 }
 
 /// What holds of a binary tree in depth-first order; gives the depth.
 fn check(nodes: &[BinaryNode], items: &[Item], at: usize) -> u32 {
     let node = &nodes[at];
     let range = &items[node.first as usize..][..node.len as usize];
-    let around = range.iter().fold(Box4::EMPTY, |all, item| all.join(item.bounds)).to_aabb();
+    let around = range.iter().fold(Box8::EMPTY, |all, item| all.join(item.bounds)).to_aabb();
     assert_eq!(around, node.bounds);
     if node.right == 0 {
         return 0;

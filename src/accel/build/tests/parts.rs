@@ -1,7 +1,7 @@
 //! What cut triangles rest on: wherever a ray hits a triangle, it is in the box of some part at that very `t`.
 
+use super::super::box8::Box8;
 use super::super::cut::Sweep;
-use super::super::item::Box4;
 use crate::accel::tests::rays;
 use crate::intersect::aabb::CullRay;
 use crate::intersect::testing::dice::Dice;
@@ -10,11 +10,11 @@ use crate::intersect::{Exact, Ray, RayLanes, Tier, TriangleTest, Watertight, tri
 use crate::math::{Lane, Real, Vec3};
 
 /// A triangle cut at random places.
-fn parts(corners: [[f32; 3]; 3], dice: &mut Dice) -> Vec<Box4> {
-    let mut parts = vec![Box4::of(&triangle::bounds(corners))];
+fn parts(corners: [[f32; 3]; 3], dice: &mut Dice) -> Vec<Box8> {
+    let mut parts = vec![Box8::of(&triangle::bounds(corners))];
     for _ in 0..1 + dice.below(6) {
         let sweep = |axis| Sweep::new(corners, axis);
-        let cut = |part: &Box4| {
+        let cut = |part: &Box8| {
             let (b, axis) = (part.to_aabb(), dice.below(3));
             sweep(axis).cut(*part, b.min[axis] + dice.unit() as f32 * (b.max[axis] - b.min[axis]))
         };
@@ -24,7 +24,7 @@ fn parts(corners: [[f32; 3]; 3], dice: &mut Dice) -> Vec<Box4> {
 }
 
 /// Whether the ray hits; the boxes must hold `t` as the traversal would cull them.
-fn hit_in_a_part<T: Tier>(ray: &Ray, corners: [[f32; 3]; 3], parts: &[Box4]) -> bool {
+fn hit_in_a_part<T: Tier>(ray: &Ray, corners: [[f32; 3]; 3], parts: &[Box8]) -> bool {
     let real = <T::Real as Real>::from_f32;
     let lanes = RayLanes {
         origin: Vec3::splat_f32(ray.origin),
@@ -44,7 +44,7 @@ fn hit_in_a_part<T: Tier>(ray: &Ray, corners: [[f32; 3]; 3], parts: &[Box4]) -> 
     // In `Exact` the traversal rounds limits outwards.
     let exact = T::Real::ROUNDOFF < f32::ROUNDOFF;
     let (from, to) = if exact { (t.next_down(), t.next_up()) } else { (t, t) };
-    let holds = |part: &Box4| {
+    let holds = |part: &Box8| {
         let b = part.to_aabb();
         let (enter, leave) = cull.interval_any(Vec3::splat(b.min), Vec3::splat(b.max), from, to);
         enter <= leave
