@@ -6,23 +6,23 @@
 //!   packets go on from what they have found.
 
 mod leaf;
+mod planes;
+mod workplace;
 
-use super::candidates::{Candidates, room_for};
 use super::frustum::{Apex, Frustum};
-use super::{BUNDLE, GROUP, GROUPS, first_packets, no_rays, numbers};
+use super::{GROUP, first_packets, numbers};
 use crate::accel::Accel;
 use crate::accel::block::RaysByPrimitive;
 use crate::accel::descend::descend;
 use crate::accel::instance::TreeRoot;
-use crate::accel::leaf::{ForTriangles, PreparedRays, with_block};
+use crate::accel::leaf::{PreparedRays, with_block};
 use crate::accel::node::ChildRef;
-use crate::accel::pending::Pending;
 use crate::accel::query::Query;
-use crate::accel::unchecked::{self, Ahead};
-use crate::accel::{packet, single};
-use crate::intersect::{RayLanes, Tier, TriangleTest};
+use crate::accel::{packet, single, unchecked};
+use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, WIDTH};
-use leaf::Pair;
+use workplace::Inside;
+pub(super) use workplace::Workplace;
 
 /// Primitives met by the pyramid, a ray, up to which a bundle pays, and those after which it is given up: by then it costs less
 /// to go on than to begin otherwise, unless there are many more.
@@ -41,58 +41,6 @@ const SCATTERED: usize = 3 * GROUP * WIDTH;
 
 /// How many entries of the stack may come before the last.
 const CHOICE: usize = 3;
-
-/// What a worker keeps for bundles.
-pub(super) struct Workplace<T: Tier> {
-    /// Packets prepared for triangles when first tested, as many meet none; which of them are, as bits.
-    prepared: [ForTriangles<T>; BUNDLE],
-    is_prepared: u32,
-    /// Packets of which distances may wait, as bits.
-    waits: u32,
-    /// What is read next.
-    pub(super) ahead: Ahead,
-    /// True if the last triangles met cover more than the pyramid in some direction: then edges tell more than boxes do.
-    meets_wide: bool,
-    /// Lanes of packets that still ask whether they hit anything, as bits.
-    asks: [u32; BUNDLE],
-    /// Pairs of a primitive of a block and a packet.
-    pairs: Candidates<{ room_for(GROUPS * WIDTH) }>,
-    /// Those that may hit, with the lanes that may.
-    likely: [(Pair, u32); room_for(GROUPS * WIDTH)],
-    pending: [Pending<T>; BUNDLE],
-    /// For bundles inside of instances.
-    inner: Option<Box<Inside<T>>>,
-}
-
-/// A bundle inside of an instance.
-struct Inside<T: Tier> {
-    rays: [RayLanes<T::Wide>; BUNDLE],
-    frustum: Frustum,
-    work: Workplace<T>,
-}
-
-impl<T: Tier> Default for Inside<T> {
-    fn default() -> Self {
-        Self { rays: [no_rays(); BUNDLE], frustum: Frustum::default(), work: Workplace::default() }
-    }
-}
-
-impl<T: Tier> Default for Workplace<T> {
-    fn default() -> Self {
-        Self {
-            prepared: [T::Triangle::prepare(&no_rays()); BUNDLE],
-            is_prepared: 0,
-            waits: 0,
-            ahead: Ahead::default(),
-            meets_wide: false,
-            asks: [0; BUNDLE],
-            pairs: Candidates::default(),
-            likely: [(Pair::default(), 0); room_for(GROUPS * WIDTH)],
-            pending: [Pending::default(); BUNDLE],
-            inner: None,
-        }
-    }
-}
 
 /// Packets of a bundle with what they ask.
 pub(super) struct Bundle<'a, T: Tier, Q> {

@@ -15,6 +15,7 @@
 mod apex;
 mod edges;
 mod focus;
+mod groups;
 mod plane;
 mod rounds;
 mod slopes;
@@ -33,6 +34,7 @@ pub use apex::Apex;
 pub(super) use edges::Edges;
 use edges::{Eight, Middle};
 pub(super) use focus::focus;
+use groups::Group;
 use plane::Plane;
 use slopes::{Slopes, greatest};
 use view::{Boxes, View};
@@ -43,15 +45,6 @@ pub(super) struct Sight {
     slopes: Slopes,
     /// Where along `z` they start.
     nearest: f32x8,
-}
-
-/// Packets of a bundle, a lane each.
-#[derive(Clone, Copy, Debug)]
-struct Group {
-    slopes: Slopes,
-    all: Slopes,
-    /// How far along `z` each still looks.
-    reach: [f32; WIDTH],
 }
 
 /// The pyramid around the packets of a bundle.
@@ -92,7 +85,7 @@ impl Default for Frustum {
             apex: Apex::Origin([0.0; 3]),
             octant: 0,
             all: none,
-            groups: [Group { slopes: none, all: none, reach: [f32::NEG_INFINITY; WIDTH] }; GROUPS],
+            groups: [Group::default(); GROUPS],
             count: 0,
             middle: Middle::default(),
             about_middle: none,
@@ -171,33 +164,6 @@ impl Frustum {
     #[inline(always)]
     pub(super) fn wide(&self, sight: &Sight) -> u32 {
         sight.slopes.wider_than(&self.all).bits()
-    }
-
-    /// Packets that may meet primitive `i`.
-    #[inline(always)]
-    pub(super) fn packets(&self, sight: &Sight, i: usize) -> u32 {
-        (0..self.count).fold(0, |all, group| all | self.packets_of(group, sight, i) << (group * WIDTH))
-    }
-
-    /// How many groups the packets make.
-    #[inline(always)]
-    pub(super) fn groups(&self) -> usize {
-        self.count
-    }
-
-    /// Of eight primitives that some packets may meet, those that packets of a group may meet.
-    #[inline(always)]
-    pub(super) fn meets_group(&self, group: usize, sight: &Sight) -> u32 {
-        if self.count == 1 { 0xff } else { sight.slopes.overlap(&self.groups[group].all).bits() }
-    }
-
-    /// Packets of a group that may meet primitive `i`.
-    #[inline(always)]
-    pub(super) fn packets_of(&self, group: usize, sight: &Sight, i: usize) -> u32 {
-        let group = &self.groups[group % GROUPS];
-        let reach = f32x8::new(group.reach) + self.side_pad;
-        let nearest = f32x8::splat(sight.nearest.get(i));
-        (sight.slopes.splat(i).overlap(&group.slopes) & nearest.le(reach)).bits()
     }
 
     /// Lanes of packet `j` that look as far as primitive `i`, given their limits.

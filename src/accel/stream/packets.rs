@@ -1,5 +1,8 @@
 //! Packets of a stream: which go as a large or a small bundle, which by themselves, and which not as packets.
 
+mod entrance;
+mod paces;
+
 use super::answers::Answers;
 use super::bundle::{Bundle, Stacks, Workplace};
 use super::columns::RayColumns;
@@ -7,30 +10,13 @@ use super::flight::Alone;
 use super::frustum::{Apex, Frustum, focus};
 use super::{BUNDLE, GROUP, no_rays};
 use crate::accel::Accel;
-use crate::accel::entry::{Entry, enter};
 use crate::accel::query::Query;
-use crate::accel::region::Region;
-use crate::accel::traversal::{Hint, LONGEST_PAUSE, Pace, Traversal, ask_planes};
+use crate::accel::traversal::{Hint, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Stored, WIDTH};
+use entrance::Entrance;
+use paces::{Paces, Tries};
 use std::ops::Range;
-
-/// Most bundles that are not tried after one whose rays seem to come from nowhere in common: to see that costs little.
-const GUESS_PAUSE: u32 = 7;
-
-/// Nodes that rays must be spared for a common entry to pay.
-const SPARED: usize = 3;
-
-/// What is tried with packets before each goes its way.
-#[derive(Clone, Copy, Default, PartialEq)]
-struct Tries {
-    /// To go as a bundle with this apex.
-    apex: Option<Apex>,
-    /// To go as a bundle with an apex that has to be found.
-    guesses: bool,
-    /// To enter the tree far from its root.
-    enters: bool,
-}
 
 /// What became of a bundle.
 #[derive(Clone, Copy, PartialEq)]
@@ -43,9 +29,6 @@ enum Fate {
     None,
 }
 
-/// Where rays enter the tree, and the region that they stay in if that is known.
-type Entrance = (Entry, Option<Region>);
-
 /// Packets, a bundle at a time.
 pub(super) struct Packets<'a, T: Tier> {
     pub(super) accel: &'a Accel,
@@ -53,14 +36,7 @@ pub(super) struct Packets<'a, T: Tier> {
     rays: Box<[RayLanes<T::Wide>; BUNDLE]>,
     frustum: Box<Frustum>,
     work: Box<Workplace<T>>,
-    /// Where a bundle does not pay, its neighbours hardly would: those whose apex is known, and those whose is guessed.
-    pace: Pace,
-    guess: Pace,
-    /// The same for large bundles.
-    large: Pace,
-    large_guess: Pace,
-    /// The same for short rays, which may enter the tree far from its root.
-    entries: Pace,
+    paces: Paces,
 }
 
 impl<'a, T: Tier> Packets<'a, T> {
@@ -71,11 +47,7 @@ impl<'a, T: Tier> Packets<'a, T> {
             rays: Box::new([no_rays(); BUNDLE]),
             frustum: Box::default(),
             work: Box::default(),
-            pace: Pace::default(),
-            guess: Pace::default(),
-            large: Pace::default(),
-            large_guess: Pace::default(),
-            entries: Pace::default(),
+            paces: Paces::default(),
         }
     }
 
@@ -92,7 +64,7 @@ impl<'a, T: Tier> Packets<'a, T> {
         let rows = first..rays.len.min(first + BUNDLE * WIDTH);
         let all = 0..rows.len().div_ceil(WIDTH);
         let parts = all.clone().step_by(GROUP).map(|j| j..all.end.min(j + GROUP));
-        let is_loaded = self.tries_large(asked, all.len());
+        let is_loaded = self.paces.tries_large(asked, all.len());
         if is_loaded {
             self.load(rays, first, all.clone(), queries);
             if self.trace_large(asked.0, &mut queries[all.clone()]) {
@@ -117,7 +89,7 @@ impl<'a, T: Tier> Packets<'a, T> {
         alone: &mut Alone,
     ) {
         let row = |j: usize| first + j * WIDTH;
-        let tries = self.tries(apex, hint, rays.ends(row(packets.start)));
+        let tries = self.paces.tries(apex, hint, rays.ends(row(packets.start)));
         // Bundles are not tried where rays were too far apart for one. Alone they would go through instances one by one.
         let apart = hint == Hint::Auto
             && (apex.is_some() && tries.apex.is_none())
@@ -168,45 +140,15 @@ impl<'a, T: Tier> Packets<'a, T> {
         }
     }
 
-    /// True if so many packets are to go as one large bundle.
-    #[inline(always)]
-    fn tries_large(&mut self, (apex, hint): (Option<Apex>, Hint), packets: usize) -> bool {
-        packets > GROUP
-            && match apex {
-                Some(_) => self.large.tries(),
-                None => hint != Hint::Incoherent && self.large_guess.tries(),
-            }
-    }
-
     /// True if all packets are answered, as one bundle.
     #[inline(never)]
     fn trace_large<Q: Query<T::Wide>>(&mut self, apex: Option<Apex>, queries: &mut [Q]) -> bool {
         let rays = &self.rays[..queries.len()];
         let guess = || focus::<T>(rays, self.accel.world).map(Apex::Behind);
-        let (paid, done) = match apex.or_else(guess) {
-            Some(apex) => self.ask_bundle(apex, 0, queries).unwrap_or_default(),
-            None => (false, false),
-        };
-        let (pace, longest) = match apex {
-            Some(_) => (&mut self.large, LONGEST_PAUSE),
-            None => (&mut self.large_guess, GUESS_PAUSE),
-        };
-        if paid {
-            pace.trust_more()
-        } else {
-            pace.learn_within(-1, longest)
-        }
+        let asked = apex.or_else(guess).and_then(|apex| self.ask_bundle(apex, 0, queries));
+        let (paid, done) = asked.unwrap_or_default();
+        self.paces.learn_large(apex.is_none(), paid);
         done
-    }
-
-    /// What is tried with the packets to come, of which the first ray ends or does not.
-    #[inline(always)]
-    fn tries(&mut self, apex: Option<Apex>, hint: Hint, ends: bool) -> Tries {
-        Tries {
-            apex: apex.filter(|_| self.pace.tries()),
-            guesses: apex.is_none() && hint != Hint::Incoherent && self.guess.tries(),
-            enters: apex.is_none() && hint == Hint::Auto && ends && self.entries.tries(),
-        }
     }
 
     /// False if the rays of a packet had better go alone.
@@ -224,38 +166,11 @@ impl<'a, T: Tier> Packets<'a, T> {
         together
     }
 
-    /// Where packets enter the tree that have an apex in common, if their pyramid spares them anything.
-    #[inline(never)]
-    fn enter_by_apex(&mut self, apex: Apex, fate: Fate, packets: Range<usize>) -> Option<Entrance> {
-        let (world, frustum) = (self.accel.world, &mut *self.frustum);
-        let rays = &self.rays[packets];
-        if fate == Fate::None {
-            frustum.surround::<T>(rays, apex, world)?;
-        }
-        // They start anew, whatever the bundle has found.
-        rays.iter().enumerate().for_each(|(j, rays)| frustum.look(j, T::above_f32(rays.t_max)));
-        frustum.update_reach();
-        let entry = enter(self.accel, world.node, |node| frustum.children(node).0);
-        (entry.spared >= SPARED).then_some((entry, None))
-    }
-
-    /// The same for rays that all end, and the region that they stay in.
-    #[inline(never)]
-    fn enter_by_region(&mut self, packets: Range<usize>) -> Option<Entrance> {
-        let world = self.accel.world;
-        let region = Region::around::<T>(&self.rays[packets], world);
-        let entry =
-            region.map(|region| (enter(self.accel, world.node, |node| region.children(node)), Some(region)));
-        let entry = entry.filter(|(entry, _)| entry.spared >= SPARED);
-        self.entries.learn(if entry.is_some() { 0 } else { -1 });
-        entry
-    }
-
     /// The apex behind where the rays of packets start, if they seem to have one.
     fn guess_apex(&mut self, packets: Range<usize>) -> Option<Apex> {
         let point = focus::<T>(&self.rays[packets], self.accel.world);
         if point.is_none() {
-            self.guess.learn_within(-1, GUESS_PAUSE);
+            self.paces.learn(true, None);
         }
         point.map(Apex::Behind)
     }
@@ -269,18 +184,11 @@ impl<'a, T: Tier> Packets<'a, T> {
         queries: &mut [Q; BUNDLE],
     ) -> Fate {
         let asked = self.ask_bundle(apex, packets.start, &mut queries[packets]);
-        let pace = if apex.is_behind() { &mut self.guess } else { &mut self.pace };
+        self.paces.learn(apex.is_behind(), asked.map(|(paid, _)| paid));
         match asked {
-            Some((paid, done)) => {
-                pace.learn(if paid { 0 } else { -1 });
-                if done { Fate::Answered } else { Fate::GivenUp }
-            }
-            None => {
-                if apex.is_behind() {
-                    pace.learn_within(-1, GUESS_PAUSE);
-                }
-                Fate::None
-            }
+            Some((_, true)) => Fate::Answered,
+            Some(_) => Fate::GivenUp,
+            None => Fate::None,
         }
     }
 

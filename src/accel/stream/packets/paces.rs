@@ -1,0 +1,75 @@
+//! What is tried with packets before each goes its way: what paid lately.
+
+use super::super::GROUP;
+use super::super::frustum::Apex;
+use crate::accel::traversal::{Hint, LONGEST_PAUSE, Pace};
+
+/// Most bundles that are not tried after one whose rays seem to come from nowhere in common: to see that costs little.
+const GUESS_PAUSE: u32 = 7;
+
+/// What is tried with packets before each goes its way.
+#[derive(Clone, Copy, Default, PartialEq)]
+pub(super) struct Tries {
+    /// To go as a bundle with this apex.
+    pub(super) apex: Option<Apex>,
+    /// To go as a bundle with an apex that has to be found.
+    pub(super) guesses: bool,
+    /// To enter the tree far from its root.
+    pub(super) enters: bool,
+}
+
+/// Where a bundle does not pay, its neighbours hardly would.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Paces {
+    /// Small bundles whose apex is known, and those whose is guessed.
+    known: Pace,
+    guessed: Pace,
+    /// Large ones.
+    large: Pace,
+    large_guessed: Pace,
+    /// Short rays, which may enter the tree far from its root.
+    pub(super) entries: Pace,
+}
+
+impl Paces {
+    /// What is tried with the packets to come, of which the first ray ends or does not.
+    #[inline(always)]
+    pub(super) fn tries(&mut self, apex: Option<Apex>, hint: Hint, ends: bool) -> Tries {
+        Tries {
+            apex: apex.filter(|_| self.known.tries()),
+            guesses: apex.is_none() && hint != Hint::Incoherent && self.guessed.tries(),
+            enters: apex.is_none() && hint == Hint::Auto && ends && self.entries.tries(),
+        }
+    }
+
+    /// True if so many packets are to go as one large bundle.
+    #[inline(always)]
+    pub(super) fn tries_large(&mut self, (apex, hint): (Option<Apex>, Hint), packets: usize) -> bool {
+        packets > GROUP
+            && match apex {
+                Some(_) => self.large.tries(),
+                None => hint != Hint::Incoherent && self.large_guessed.tries(),
+            }
+    }
+
+    /// Takes note of whether a small bundle paid; nothing where its rays were not as the apex says.
+    #[inline(always)]
+    pub(super) fn learn(&mut self, is_guessed: bool, paid: Option<bool>) {
+        let pace = if is_guessed { &mut self.guessed } else { &mut self.known };
+        match paid {
+            Some(paid) => pace.learn(if paid { 0 } else { -1 }),
+            None if is_guessed => pace.learn_within(-1, GUESS_PAUSE),
+            None => {}
+        }
+    }
+
+    /// The same for a large one. One that paid says little of the next: background pays, too.
+    #[inline(always)]
+    pub(super) fn learn_large(&mut self, is_guessed: bool, paid: bool) {
+        let (pace, longest) = match is_guessed {
+            true => (&mut self.large_guessed, GUESS_PAUSE),
+            false => (&mut self.large, LONGEST_PAUSE),
+        };
+        if paid { pace.trust_more() } else { pace.learn_within(-1, longest) }
+    }
+}
