@@ -22,7 +22,7 @@ use crate::accel::leaf::{BlockVisitor, Lanes, TestRays, Testable};
 use crate::accel::query::Query;
 use crate::intersect::triangle::Glimpse;
 use crate::intersect::{Tier, TriangleTest};
-use crate::math::{BitLane, Lane, Mask, WIDTH, three};
+use crate::math::{Lane, Mask, WIDTH, three};
 
 /// Pairs of packets and round primitives from which it pays to look at what the rays have in common: camera rays, and those for
 /// which any hit will do, as their own tests tell more of what is behind.

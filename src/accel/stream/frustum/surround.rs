@@ -5,7 +5,7 @@ use wide::f32x8;
 use super::edges::Eight;
 use super::slopes::{Slopes, filled, greatest, least, range, slopes};
 use super::view::View;
-use super::{Apex, Frustum, Group, asked, narrow};
+use super::{Apex, Frustum, asked, narrow};
 use crate::accel::instance::TreeRoot;
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Lane, Mask, Real, Vec3, WIDTH, eight};
