@@ -145,11 +145,10 @@ impl<const BINS: usize> Bins<BINS> {
         let rights = self.rights();
         let (mut left, mut count) = ([Box8::EMPTY; 3], u32x4::ZERO);
         let mut best = [f64x4::splat(f64::INFINITY), f64x4::splat(f64::MAX), f64x4::ZERO];
-        for bin in 1..BINS {
+        for (bin, &(right_cost, right_count)) in rights.iter().enumerate().skip(1) {
             let (bounds, more) = self.bin(bin - 1);
             left = joined(left, bounds);
             count += more;
-            let (right_cost, right_count) = rights[bin];
             // Without items on one side it is no number.
             let cost = costs(left, count) + right_cost;
             let larger = as_f64(count.max(right_count));

@@ -22,8 +22,8 @@ use standing::Standing;
 
 /// Shares of the nodes, largest first, that look for a better place: in the first round, which tells whether the tree is one
 /// to gain, and in later ones. Rays through Sponza and a living room then visit 9 to 18% less (nodes and blocks by their
-/// cycles, means of both) of trees that take 12% longer to build; with six times as many in later rounds 1% less, for half as
-/// long again.
+/// cycles, means of both) of trees that take 15 to 24% longer to build; with six times as many in later rounds 1% less, for much
+/// longer builds.
 const FIRST_SHARE: f64 = 0.01;
 const SHARE: f64 = 0.05;
 /// Nodes that look for a place at least.

@@ -75,15 +75,13 @@ impl Sorted {
     /// Half the area of both sides of each place.
     fn costs(&self) -> [f64; LEAF_SIZE] {
         let (mut left, mut right) = ([Box8::EMPTY; LEAF_SIZE], [Box8::EMPTY; LEAF_SIZE]);
-        let mut all = Box8::EMPTY;
-        for i in 1..LEAF_SIZE {
-            all = all.join(self.items[i - 1].bounds);
-            left[i] = all;
+        for i in 0..LEAF_SIZE - 1 {
+            left[i + 1] = left[i].join(self.items[i].bounds);
         }
-        all = Box8::EMPTY;
-        for i in (1..LEAF_SIZE).rev() {
-            all = all.join(self.items[i].bounds);
-            right[i] = all;
+        let mut all = Box8::EMPTY;
+        for (right, item) in right.iter_mut().zip(&self.items).rev() {
+            all = all.join(item.bounds);
+            *right = all;
         }
         let [a, b, c, d, e, f, g, h] = left;
         let [i, j, k, l, m, n, o, p] = right;

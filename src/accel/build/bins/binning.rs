@@ -15,7 +15,7 @@ pub(in super::super) struct Binning {
 impl Binning {
     pub(in super::super) fn new<const BINS: usize>(centroids: Box8) -> Self {
         let (origin, size) = (centroids.lo() & XYZ, centroids.hi() - centroids.lo());
-        let scale = f32x4::splat(BINS as f32) / size & size.simd_gt(f32x4::ZERO) & XYZ;
+        let scale = (f32x4::splat(BINS as f32) / size) & size.simd_gt(f32x4::ZERO) & XYZ;
         Self { origin, scale }
     }
 
