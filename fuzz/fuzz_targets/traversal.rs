@@ -5,9 +5,9 @@ use libfuzzer_sys::arbitrary::{self, Arbitrary};
 use libfuzzer_sys::fuzz_target;
 use octray::accel::stream::{Apex, Bound, HitColumns, RayColumns, RayStream};
 use octray::accel::{Accel, Hint, Traversal, brute};
+use octray::geometry::{Geometry, Group, Instance, NO_MATERIAL};
 use octray::intersect::{Exact, PrimId, RayLanes, Tier, Watertight};
 use octray::math::{BitLane, Lane, Real, Transform, Vec3, WIDTH};
-use octray::geometry::{Geometry, Group, Instance, NO_MATERIAL};
 
 /// A coordinate on a grid that makes things touch, beside it, or anywhere moderate.
 #[derive(Arbitrary, Clone, Copy, Debug)]
@@ -149,33 +149,55 @@ fn check<T: Tier>(geometry: &Geometry, accel: &Accel, rays: &RayLanes<T::Wide>) 
 }
 
 /// Streams, told nothing or that the rays have in common what the first of them has: true or not, results do not change.
-fn check_streams<T: Tier>(accel: &Accel, rays: &RayLanes<T::Wide>, hint: Hint, expected: &[Option<Bits>; WIDTH]) {
-    let column = |v: T::Wide| -> [T::Real; WIDTH] { std::array::from_fn(|i| v.get(i)) };
+/// A packet, and as many as a large bundle is made of: the same rays again and again, each time by one lane further.
+fn check_streams<T: Tier>(
+    accel: &Accel,
+    rays: &RayLanes<T::Wide>,
+    hint: Hint,
+    expected: &[Option<Bits>; WIDTH],
+) {
+    for rows in [WIDTH, (WIDTH + 1) * WIDTH] {
+        check_rows::<T>(accel, (rays, rows), hint, expected);
+    }
+}
+
+fn check_rows<T: Tier>(
+    accel: &Accel,
+    (rays, rows): (&RayLanes<T::Wide>, usize),
+    hint: Hint,
+    expected: &[Option<Bits>; WIDTH],
+) {
+    let ray = |row: usize| (row + row / WIDTH) % WIDTH;
+    let column = |v: T::Wide| -> Vec<T::Real> { (0..rows).map(|row| v.get(ray(row))).collect() };
     let axes = |v: Vec3<T::Wide>| [column(v.x), column(v.y), column(v.z)];
     let (origin, direction) = (axes(rays.origin), axes(rays.direction));
     let (t_min, t_max) = (column(rays.t_min), column(rays.t_max));
     let columns = RayColumns {
-        len: WIDTH,
+        len: rows,
         origin: origin.each_ref().map(|c| &c[..]),
         direction: direction.each_ref().map(|c| &c[..]),
         t_min: Bound::Each(&t_min),
         t_max: Bound::Each(&t_max),
     };
-    let start = origin.map(|c| c[0].to_f32());
+    let start = origin.each_ref().map(|c| c[0].to_f32());
     let end = std::array::from_fn(|k| start[k] + direction[k][0].to_f32());
     let mut stream = RayStream::<T>::new(accel);
     for apex in [None, Some(Apex::Origin(start)), Some(Apex::Target(end))] {
-        let [mut t, mut u, mut v] = [[T::Real::default(); WIDTH]; 3];
-        let ([mut prim, mut instance], mut occluded) = ([[0; WIDTH]; 2], [0]);
+        let real = || vec![T::Real::default(); rows];
+        let (mut t, mut u, mut v) = (real(), real(), real());
+        let (mut prim, mut instance, mut occluded) = (vec![0; rows], vec![0; rows], vec![0; rows / WIDTH]);
         let mut hits =
             HitColumns { t: &mut t, u: &mut u, v: &mut v, prim: &mut prim, instance: &mut instance };
         stream.closest(&columns, apex, hint, &mut hits);
         stream.any(&columns, apex, hint, &mut occluded);
         let bits = |x: T::Real| x.to_f64().to_bits();
-        for (i, expected) in expected.iter().enumerate() {
-            let found = (t[i] < t_max[i]).then(|| (bits(t[i]), bits(u[i]), bits(v[i]), prim[i], instance[i]));
-            assert_eq!(found, *expected, "{:?} {hint:?} {apex:?}, ray {i}", T::NAME);
-            assert_eq!(occluded[0] >> i & 1 != 0, expected.is_some(), "any, {:?} {hint:?} {apex:?}", T::NAME);
+        for row in 0..rows {
+            let expected = expected[ray(row)];
+            let hit = (bits(t[row]), bits(u[row]), bits(v[row]), prim[row], instance[row]);
+            let found = (t[row] < t_max[row]).then_some(hit);
+            assert_eq!(found, expected, "{:?} {hint:?} {apex:?}, row {row} of {rows}", T::NAME);
+            let any = occluded[row / WIDTH] >> (row % WIDTH) & 1 != 0;
+            assert_eq!(any, expected.is_some(), "any, {:?} {hint:?} {apex:?}, row {row} of {rows}", T::NAME);
         }
     }
 }

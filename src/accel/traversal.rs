@@ -44,6 +44,16 @@ impl Pace {
         self.rest -= u32::from(!tries);
         tries
     }
+    /// True if the next is not to be tried.
+    #[inline(always)]
+    pub(super) fn is_resting(&self) -> bool {
+        self.rest != 0
+    }
+    /// The next is not to be tried, whatever the last one saved.
+    #[inline(always)]
+    pub(super) fn skip_next(&mut self) {
+        self.rest = self.rest.max(1);
+    }
     /// True if none of so many packets is to go together; they count as rest.
     #[inline(always)]
     fn rests(&mut self, packets: u32) -> bool {

@@ -31,6 +31,8 @@ const BUDGET: usize = 8;
 /// The same for a large bundle where any hit will do: parts of it often have all they need.
 const LARGE_PAYS_FOR_ANY: usize = 2;
 const LARGE_BUDGET_FOR_ANY: usize = 4;
+/// Primitives a ray up to which a small bundle says that a large one would pay.
+const LITTLE: usize = 2;
 /// How many a triangle counts as where any hit will do: rays that go alone seldom need all that a pyramid meets, and are fast
 /// at triangles.
 const TRIANGLE_FOR_ANY: usize = 2;
@@ -74,6 +76,11 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         (0..rays.len()).for_each(|j| bundle.look(j));
         bundle.frustum.update_reach();
         Some(bundle)
+    }
+
+    /// True if it met so little that a large one in its place would pay.
+    pub(super) fn has_met_little(&self) -> bool {
+        self.met <= LITTLE * self.rays.len() * WIDTH
     }
 
     /// True if its rays had better go together, and its neighbours' rays too.

@@ -15,7 +15,7 @@ use crate::accel::traversal::{Hint, Traversal, ask_planes};
 use crate::intersect::{RayLanes, Tier};
 use crate::math::{Stored, WIDTH};
 use entrance::Entrance;
-use paces::{Paces, Tries};
+use paces::{Outcome, Paces, Tries};
 use std::ops::Range;
 
 /// What became of a bundle.
@@ -146,9 +146,9 @@ impl<'a, T: Tier> Packets<'a, T> {
         let rays = &self.rays[..queries.len()];
         let guess = || focus::<T>(rays, self.accel.world).map(Apex::Behind);
         let asked = apex.or_else(guess).and_then(|apex| self.ask_bundle(apex, 0, queries));
-        let (paid, done) = asked.unwrap_or_default();
-        self.paces.learn_large(apex.is_none(), paid);
-        done
+        let outcome = asked.unwrap_or_default();
+        self.paces.learn_large(apex.is_none(), outcome.paid);
+        outcome.done
     }
 
     /// False if the rays of a packet had better go alone.
@@ -184,27 +184,27 @@ impl<'a, T: Tier> Packets<'a, T> {
         queries: &mut [Q; BUNDLE],
     ) -> Fate {
         let asked = self.ask_bundle(apex, packets.start, &mut queries[packets]);
-        self.paces.learn(apex.is_behind(), asked.map(|(paid, _)| paid));
+        self.paces.learn(apex.is_behind(), asked);
         match asked {
-            Some((_, true)) => Fate::Answered,
+            Some(Outcome { done: true, .. }) => Fate::Answered,
             Some(_) => Fate::GivenUp,
             None => Fate::None,
         }
     }
 
-    /// Asks packets from the given one on as a bundle; whether that paid, and whether all are answered.
+    /// Asks packets from the given one on as a bundle.
     fn ask_bundle<Q: Query<T::Wide>>(
         &mut self,
         apex: Apex,
         first: usize,
         queries: &mut [Q],
-    ) -> Option<(bool, bool)> {
+    ) -> Option<Outcome> {
         let (world, rays) = (self.accel.world, &self.rays[first..][..queries.len()]);
         let mut bundle = Bundle::new(rays, apex, world, (&mut self.frustum, &mut self.work), queries)?;
         let mut stacks =
             Stacks { bundle: &mut self.traversal.single_stack, packet: &mut self.traversal.packet_stack };
         let done = bundle.descend(self.accel, world.node, &mut stacks);
-        Some((bundle.has_paid(), done))
+        Some(Outcome { done, paid: bundle.has_paid(), met_little: bundle.has_met_little() })
     }
 }
 

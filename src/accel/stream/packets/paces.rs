@@ -18,8 +18,18 @@ pub(super) struct Tries {
     pub(super) enters: bool,
 }
 
+/// How a bundle did.
+#[derive(Clone, Copy, Default)]
+pub(super) struct Outcome {
+    /// All rays are answered.
+    pub(super) done: bool,
+    pub(super) paid: bool,
+    /// So little that it had better have been a part of a large one.
+    pub(super) met_little: bool,
+}
+
 /// Where a bundle does not pay, its neighbours hardly would.
-#[derive(Clone, Copy, Debug, Default)]
+#[derive(Clone, Copy, Debug)]
 pub(super) struct Paces {
     /// Small bundles whose apex is known, and those whose is guessed.
     known: Pace,
@@ -29,6 +39,22 @@ pub(super) struct Paces {
     large_guessed: Pace,
     /// Short rays, which may enter the tree far from its root.
     pub(super) entries: Pace,
+}
+
+/// Small bundles come first: they tell whether large ones would pay.
+impl Default for Paces {
+    fn default() -> Self {
+        let mut paces = Self {
+            known: Pace::default(),
+            guessed: Pace::default(),
+            large: Pace::default(),
+            large_guessed: Pace::default(),
+            entries: Pace::default(),
+        };
+        paces.large.skip_next();
+        paces.large_guessed.skip_next();
+        paces
+    }
 }
 
 impl Paces {
@@ -47,17 +73,25 @@ impl Paces {
     pub(super) fn tries_large(&mut self, (apex, hint): (Option<Apex>, Hint), packets: usize) -> bool {
         packets > GROUP
             && match apex {
-                Some(_) => self.large.tries(),
+                Some(_) => !self.known.is_resting() && self.large.tries(),
                 None => hint != Hint::Incoherent && self.large_guessed.tries(),
             }
     }
 
-    /// Takes note of whether a small bundle paid; nothing where its rays were not as the apex says.
+    /// Takes note of how a small bundle did; nothing where its rays were not as the apex says.
     #[inline(always)]
-    pub(super) fn learn(&mut self, is_guessed: bool, paid: Option<bool>) {
-        let pace = if is_guessed { &mut self.guessed } else { &mut self.known };
-        match paid {
-            Some(paid) => pace.learn(if paid { 0 } else { -1 }),
+    pub(super) fn learn(&mut self, is_guessed: bool, outcome: Option<Outcome>) {
+        let (pace, large) = match is_guessed {
+            true => (&mut self.guessed, &mut self.large_guessed),
+            false => (&mut self.known, &mut self.large),
+        };
+        match outcome {
+            Some(outcome) => {
+                pace.learn(if outcome.paid { 0 } else { -1 });
+                if !outcome.met_little {
+                    large.skip_next();
+                }
+            }
             None if is_guessed => pace.learn_within(-1, GUESS_PAUSE),
             None => {}
         }
