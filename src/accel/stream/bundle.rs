@@ -137,8 +137,9 @@ impl<'a, T: Tier, Q: Query<T::Wide>> Bundle<'a, T, Q> {
         let (near, octant) = (near.to_array(), self.frustum.octant);
         // Which come next is guessed from the branches: looked up, they would be waited for.
         for slot in (0..WIDTH).rev().map(|i| (i ^ octant) % WIDTH) {
-            // Where its pads overflow, the pyramid seems to meet even the box of a free slot.
-            if meets >> slot & 1 != 0 && !node.child[slot].is_empty() {
+            // Boxes of free slots are met by none.
+            if meets >> slot & 1 != 0 {
+                debug_assert!(!node.child[slot].is_empty());
                 unchecked::prefetch(accel, node.child[slot]);
                 stack.push(single::Entry::new(near[slot], node.child[slot]));
             }

@@ -79,11 +79,13 @@ impl Slopes {
 #[inline(always)]
 pub(super) fn slopes(d: Vec3<f32x8>, asked: u32) -> Option<(f32x8, f32x8, f32x8, f32x8)> {
     let most = d.z * f32x8::splat(MAX_SLOPE);
-    let fits = d.z.gt(f32x8::ZERO) & d.x.abs().le(most) & d.y.abs().le(most);
+    let scale = f32x8::ONE / d.z;
+    // Directions so short or long that it overflows or underflows would have slopes of no use.
+    let is_normal = scale.ge(f32x8::splat(f32::MIN_POSITIVE)) & scale.le(f32x8::splat(f32::MAX));
+    let fits = is_normal & d.x.abs().le(most) & d.y.abs().le(most);
     if asked & !fits.bits() != 0 {
         return None;
     }
-    let scale = f32x8::ONE / d.z;
     let (a, b) = (d.x * scale, d.y * scale);
     if asked == 0xff {
         return Some((a, b, d.z, scale));

@@ -177,7 +177,6 @@ impl Frustum {
         self.middle.stray =
             if self.view.lean.is_some() { f32x8::splat(f32::INFINITY) } else { self.side_pad };
         self.middle.large = f32x8::splat(if self.tells_meetings { LARGE } else { LARGE_FOR_PLANES });
-        let pads_overflow = !(self.side_pad + self.middle.edge_pad[2]).get(0).is_finite();
-        (size <= LARGEST && !pads_overflow).then_some(())
+        (size <= LARGEST).then_some(())
     }
 }

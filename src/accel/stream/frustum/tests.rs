@@ -351,6 +351,29 @@ fn a_meeting_that_planes_tell_is_one_and_within_their_bounds() {
     assert!(told > 50_000 && left < told, "{told} {left}");
 }
 
+/// Slopes of the shortest directions would overflow, and those of the longest lose digits: such rays lost hits.
+#[test]
+fn directions_too_short_or_long_for_slopes_make_no_pyramid() {
+    let around = |length: f32, asked: bool| {
+        let dice = &mut Dice(5);
+        let mut beams = std::iter::repeat_with(|| beam(dice));
+        let found = beams.find(|(_, apex)| matches!(apex, Apex::Origin(_)));
+        let (mut rays, apex) = found.expect("one of many");
+        for ray in rays.iter_mut().skip(1).step_by(5) {
+            ray.direction = ray.direction.map(|x| x * length);
+            ray.t_max = if asked { f32::INFINITY } else { f32::NEG_INFINITY };
+        }
+        around(&rays, apex, false, 1.0)
+    };
+    for length in [1e-20, 1.0, 1e20] {
+        assert!(around(length, true).is_some(), "{length}");
+    }
+    for length in [1e-42, 1e-40, 1e38] {
+        assert!(around(length, true).is_none(), "{length}");
+        assert!(around(length, false).is_some(), "{length}, not asked");
+    }
+}
+
 #[test]
 fn the_image_behind_a_mirror_is_found() {
     let dice = &mut Dice(7);
