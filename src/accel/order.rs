@@ -39,6 +39,11 @@ impl Order {
     pub(super) fn lanes(self) -> u32x8 {
         lanes(self.0)
     }
+    /// The first `count` lanes, one after the other.
+    #[inline(always)]
+    pub(super) fn take(self, count: u32) -> impl Iterator<Item = usize> {
+        (0..count).map(move |i| (self.0 >> (4 * i)) as usize & 7)
+    }
     /// The last of `count` lanes; any lane if there are none.
     #[inline(always)]
     pub(super) fn last(self, count: u32) -> usize {

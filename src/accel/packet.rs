@@ -9,6 +9,7 @@ use super::descend::{Descend, Heading, Octant};
 use super::instance::TreeRoot;
 use super::leaf::{EachPrimitive, PreparedRays, with_block};
 use super::node::{ChildRef, Node8};
+use super::order::far_first;
 use super::pending::Pending;
 use super::query::Query;
 use super::region::Region;
@@ -57,19 +58,24 @@ impl Descend for RaysByPrimitive {
         (t_min, t_max): (f32x8, f32x8),
         stack: &mut Vec<Entry>,
     ) {
-        let (octant, region) = (heading.octant, heading.region.as_ref());
-        let near = region.map_or(0xff, |region| region.children(node));
-        for slot in (0..WIDTH).rev().map(|i| i ^ octant.bits) {
-            let child = node.child[slot];
-            if child.is_empty() || near >> slot & 1 == 0 {
-                continue;
-            }
+        let octant = heading.octant;
+        let (mut enters, mut met) = ([f32x8::ZERO; WIDTH], 0);
+        let mut left = heading.region.as_ref().map_or(0xff, |region| region.children(node));
+        // Which of the children are met nobody can predict: first all are tested, then those met go on the stack.
+        while left != 0 {
+            let slot = left.trailing_zeros() as usize % WIDTH;
+            left &= left - 1;
             let (enter, leave) = interval(node, slot, cull, octant, (t_min, t_max));
             let meets = Lane::le(enter, leave);
-            if meets.any() {
-                let near = <f32x8 as Lane>::select(meets, enter, f32x8::splat(f32::INFINITY));
+            enters[slot] = <f32x8 as Lane>::select(meets, enter, f32x8::splat(f32::INFINITY));
+            met |= u32::from(meets.any()) << slot;
+        }
+        for slot in far_first(octant.bits as u32, met).take(met.count_ones()) {
+            let child = node.child[slot];
+            // Where the slabs of huge scenes overflow, rays may seem to meet even the box of a free slot.
+            if !child.is_empty() {
                 unchecked::prefetch(accel, child);
-                stack.push(Entry { near, child });
+                stack.push(Entry { near: enters[slot], child });
             }
         }
     }

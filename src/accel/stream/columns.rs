@@ -59,6 +59,48 @@ impl<R: Real> RayColumns<'_, R> {
         }
     }
 
+    /// Rays of up to eight rows, counted from row `first` on; lanes beyond are turned off.
+    #[inline(always)]
+    pub(super) fn gather<L: Lane>(&self, first: usize, rows: &[u8]) -> RayLanes<L>
+    where
+        R: Stored<L>,
+    {
+        let last = rows.len() - 1;
+        let at: [usize; WIDTH] = std::array::from_fn(|i| first + usize::from(rows[i.min(last)]));
+        let lanes = |column: &[R]| L::from_fn(|i| column[at[i]].lane());
+        let three = |[x, y, z]: &[&[R]; 3]| Vec3::new(lanes(x), lanes(y), lanes(z));
+        let bound = |bound: &Bound<R>| match bound {
+            Bound::All(t) => L::splat(t.lane()),
+            Bound::Each(column) => lanes(column),
+        };
+        let there = L::Mask::from_bits((2 << last) - 1);
+        RayLanes {
+            origin: three(&self.origin),
+            direction: three(&self.direction),
+            t_min: bound(&self.t_min),
+            t_max: L::select(there, bound(&self.t_max), L::constant(f64::NEG_INFINITY)),
+        }
+    }
+
+    /// Where eight rays from row `at` on go.
+    #[inline(always)]
+    pub(super) fn directions<L: Lane>(&self, at: usize) -> Vec3<L>
+    where
+        R: Stored<L>,
+    {
+        load3(&self.direction, at)
+    }
+
+    /// Which of eight rays from row `at` on there are, and which of them are asked, as bits.
+    #[inline(always)]
+    pub(super) fn there_and_asked<L: Lane>(&self, at: usize) -> (u32, u32)
+    where
+        R: Stored<L>,
+    {
+        let there = 0xff >> WIDTH.saturating_sub(self.len - at);
+        (there, self.t_max_at::<L>(at).gt(L::constant(f64::NEG_INFINITY)).bits())
+    }
+
     #[inline(always)]
     fn t_max_at<L: Lane>(&self, at: usize) -> L
     where

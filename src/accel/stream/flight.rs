@@ -20,6 +20,7 @@ mod view;
 use super::answers::Answers;
 use super::candidates::{Candidates, room_for};
 use super::columns::RayColumns;
+use super::numbers;
 use crate::accel::Accel;
 use crate::accel::block::{CylinderBlock, SphereBlock, TriangleBlock};
 use crate::accel::node::{ChildRef, Node8};
@@ -80,7 +81,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
         loop {
             while (!self.taken).len() >= WIDTH {
                 let Some(run) = waiting.next() else { break };
-                self.start(accel, &Seeds::<T, A>::new(accel, rays, run.first), alone.entry(run));
+                self.start(accel, &Seeds::<T, A>::new(accel, rays, run), alone.entry(run));
             }
             if self.taken.is_empty() {
                 return;
@@ -100,7 +101,7 @@ impl<T: Tier, Q: Query<T::Real> + Copy> Flight<T, Q> {
             self.slots.resize(SLOTS, Slot::of(seeds, 0));
         }
         let mut started = SlotSet::default();
-        for (i, at) in (0..seeds.count).zip(!self.taken) {
+        for (i, at) in numbers(u32::from(seeds.lanes)).map(|i| i % WIDTH).zip(!self.taken) {
             self.slots[at].start(seeds, i, accel.world.node, self.stacks.bottom(at));
             started.insert_if(true, at);
         }

@@ -237,6 +237,6 @@ fn asked<T: Tier>(rays: &RayLanes<T::Wide>) -> u32 {
 }
 
 #[inline(always)]
-fn narrow<T: Tier>(v: Vec3<T::Wide>) -> Vec3<f32x8> {
+pub(super) fn narrow<T: Tier>(v: Vec3<T::Wide>) -> Vec3<f32x8> {
     Vec3::new(T::nearest_f32(v.x), T::nearest_f32(v.y), T::nearest_f32(v.z))
 }

@@ -1,6 +1,7 @@
 //! Many rays at a time: columns of rays in, columns of hits out, each ray by the way that suits it.
 //!
-//! 1. Rays with a common point, eight or 32 packets at a time: `bundle`, behind the pyramid of `frustum`.
+//! 1. Rays with a common point, eight or 32 packets at a time: `bundle`, behind the pyramid of `frustum`. What flat mirrors
+//!    throw back has one by beams, which are sorted out first.
 //! 2. Packets whose rays visit much the same: together, see [`super::packet`].
 //! 3. All others: one by one, many at a time.
 //!
@@ -108,8 +109,14 @@ impl<'a, T: Tier> RayStream<'a, T> {
     ) {
         let asked = A::scratch(&mut self.scratch);
         self.alone.clear();
-        for first in (0..rays.len).step_by(BUNDLE * WIDTH) {
-            self.packets.trace(rays, first, (apex, hint), &mut asked.queries, answers, &mut self.alone);
+        let (queries, alone) = (&mut asked.queries, &mut self.alone);
+        match apex {
+            Some(_) => {
+                for first in (0..rays.len).step_by(BUNDLE * WIDTH) {
+                    self.packets.trace(rays, first, ((apex, hint), false), queries, answers, alone);
+                }
+            }
+            None => self.packets.trace_scattered(rays, hint, queries, answers, alone),
         }
         if !self.alone.is_empty() {
             asked.flight.trace(self.packets.accel, rays, &self.alone, answers);

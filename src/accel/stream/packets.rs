@@ -1,7 +1,9 @@
 //! Packets of a stream: which go as a large or a small bundle, which by themselves, and which not as packets.
 
+mod beams;
 mod entrance;
 mod paces;
+mod scattered;
 
 use super::answers::Answers;
 use super::bundle::{Bundle, Stacks, Workplace};
@@ -51,12 +53,14 @@ impl<'a, T: Tier> Packets<'a, T> {
         }
     }
 
-    /// Answers the packets from row `first` on, or notes the rows of rays that had better go alone.
+    /// Answers the packets from row `first` on, or notes the rows of rays that had better go alone. Without an apex, one is guessed
+    /// where they are a beam.
+    #[inline(always)]
     pub(super) fn trace<A: Answers<T>, S: Stored<T::Wide>>(
         &mut self,
         rays: &RayColumns<S>,
         first: usize,
-        asked: (Option<Apex>, Hint),
+        (asked, is_beam): ((Option<Apex>, Hint), bool),
         queries: &mut [A::Query; BUNDLE],
         answers: &mut A,
         alone: &mut Alone,
@@ -64,7 +68,7 @@ impl<'a, T: Tier> Packets<'a, T> {
         let rows = first..rays.len.min(first + BUNDLE * WIDTH);
         let all = 0..rows.len().div_ceil(WIDTH);
         let parts = all.clone().step_by(GROUP).map(|j| j..all.end.min(j + GROUP));
-        let is_loaded = self.paces.tries_large(asked, all.len());
+        let is_loaded = self.paces.tries_large(asked.0, is_beam, all.len());
         if is_loaded {
             self.load(rays, first, all.clone(), queries);
             if self.trace_large(asked.0, &mut queries[all.clone()]) {
@@ -73,7 +77,7 @@ impl<'a, T: Tier> Packets<'a, T> {
             }
         }
         for part in parts {
-            self.trace_small(rays, (first, part, is_loaded), asked, queries, answers, alone);
+            self.trace_small(rays, (first, part, is_loaded), (asked, is_beam), queries, answers, alone);
         }
     }
 
@@ -83,13 +87,14 @@ impl<'a, T: Tier> Packets<'a, T> {
         &mut self,
         rays: &RayColumns<S>,
         (first, packets, is_loaded): (usize, Range<usize>, bool),
-        (apex, hint): (Option<Apex>, Hint),
+        ((apex, hint), is_beam): ((Option<Apex>, Hint), bool),
         queries: &mut [A::Query; BUNDLE],
         answers: &mut A,
         alone: &mut Alone,
     ) {
         let row = |j: usize| first + j * WIDTH;
-        let tries = self.paces.tries(apex, hint, rays.ends(row(packets.start)));
+        let ends = hint == Hint::Auto && rays.ends(row(packets.start));
+        let tries = self.paces.tries(apex, is_beam, ends);
         // Bundles are not tried where rays were too far apart for one. Alone they would go through instances one by one.
         let apart = hint == Hint::Auto
             && (apex.is_some() && tries.apex.is_none())
@@ -181,7 +186,7 @@ impl<'a, T: Tier> Packets<'a, T> {
         &mut self,
         apex: Apex,
         packets: Range<usize>,
-        queries: &mut [Q; BUNDLE],
+        queries: &mut [Q],
     ) -> Fate {
         let asked = self.ask_bundle(apex, packets.start, &mut queries[packets]);
         self.paces.learn(apex.is_behind(), asked);

@@ -214,11 +214,9 @@ proptest! {
     }
 }
 
-/// Bundles that meet so much that they are given up, and neighbours that are not tried: their rays enter the tree elsewhere.
-#[test]
-fn rays_far_apart_for_what_they_meet_lose_no_hit() {
-    let dice = &mut Dice(17);
-    let (mut geometry, count) = (Geometry::default(), 3_000);
+/// Small triangles anywhere between -1 and 1.
+fn small_triangles(count: usize, dice: &mut Dice) -> Geometry {
+    let mut geometry = Geometry::default();
     let t = &mut geometry.triangles;
     for i in 0..count {
         let middle = dice.point();
@@ -230,6 +228,14 @@ fn rays_far_apart_for_what_they_meet_lose_no_hit() {
         t.material.push(0);
     }
     geometry.groups = vec![Group { triangles: 0..count, spheres: 0..0, cylinders: 0..0 }];
+    geometry
+}
+
+/// Bundles that meet so much that they are given up, and neighbours that are not tried: their rays enter the tree elsewhere.
+#[test]
+fn rays_far_apart_for_what_they_meet_lose_no_hit() {
+    let dice = &mut Dice(17);
+    let geometry = small_triangles(3_000, dice);
     let (accel, mut hits) = (Accel::build(&geometry), 0);
     for _ in 0..24 {
         let landmarks = [dice.point().map(|x| x as f32), dice.point().map(|x| x as f32)];
@@ -238,4 +244,33 @@ fn rays_far_apart_for_what_they_meet_lose_no_hit() {
         hits += check::<Watertight>(&geometry, &accel, &rays, None);
     }
     assert!(hits > 5_000, "{hits}");
+}
+
+/// What three mirrors throw back, in any order, with rays among it that go anywhere or are not asked.
+#[test]
+fn beams_in_any_order_lose_no_hit() {
+    let dice = &mut Dice(18);
+    let geometry = small_triangles(1_500, dice);
+    let (accel, mut hits) = (Accel::build(&geometry), 0);
+    for round in 0..12 {
+        let point = |dice: &mut Dice| dice.point().map(|x| x as f32);
+        let mirrors: [_; 3] = std::array::from_fn(|_| (point(dice).map(|x| 4.0 * x), point(dice)));
+        let rays: Vec<Ray> = (0..1_000)
+            .map(|_| {
+                let (apex, middle) = mirrors[dice.below(3)];
+                let aside = point(dice);
+                let back = Ray::new(apex, std::array::from_fn(|k| middle[k] + 0.03 * aside[k] - apex[k]));
+                match dice.below(12) {
+                    0 => Ray::new(middle, dice.heading().map(|x| x as f32)),
+                    1 => Ray { t_max: f32::NEG_INFINITY, ..back },
+                    _ => started(&back, dice.between(0.4, 0.6), apex),
+                }
+            })
+            .collect();
+        hits += check::<Watertight>(&geometry, &accel, &rays, None);
+        if round < 2 {
+            hits += check::<Exact>(&geometry, &accel, &rays, None);
+        }
+    }
+    assert!(hits > 2_000, "{hits}");
 }

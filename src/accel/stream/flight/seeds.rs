@@ -21,15 +21,16 @@ pub(super) struct Seeds<T: Tier, A: Answers<T>> {
     queries: A::Query,
     /// Row of the first.
     first: u32,
-    /// How many are to start.
-    pub(super) count: usize,
+    /// Which are to start, as bits.
+    pub(super) lanes: u8,
 }
 
 impl<T: Tier, A: Answers<T>> Seeds<T, A> {
     /// The rays from a row on.
     #[inline(always)]
-    pub(super) fn new<S: Stored<T::Wide>>(accel: &Accel, rays: &RayColumns<S>, first: u32) -> Self {
-        let count = WIDTH.min(rays.len - first as usize);
+    pub(super) fn new<S: Stored<T::Wide>>(accel: &Accel, rays: &RayColumns<S>, run: Run) -> Self {
+        let first = run.first;
+        let there = (0xff_u32 >> WIDTH.saturating_sub(rays.len - first as usize)) as u8;
         let rays: RayLanes<T::Wide> = rays.load(first as usize);
         let mut queries = A::ask(&rays);
         ask_planes(accel, &rays, &mut queries);
@@ -39,7 +40,7 @@ impl<T: Tier, A: Answers<T>> Seeds<T, A> {
             views: Views::new(rays, cull_rays::<T>(&rays, accel.world)),
             queries,
             first,
-            count,
+            lanes: run.lanes & there,
         }
     }
 
@@ -62,6 +63,8 @@ pub(super) struct Run {
     pub(super) first: u32,
     /// Which entry they take.
     entry: Option<EntryNumber>,
+    /// Which of the eight, as bits.
+    lanes: u8,
 }
 
 /// The number of an entry.
@@ -85,7 +88,11 @@ impl Alone {
     }
     /// Adds the run from a row on, with what stands for the tree to its rays.
     pub(in super::super) fn push(&mut self, first: usize, entry: Option<EntryNumber>) {
-        self.runs.push(Run { first: first as u32, entry });
+        self.runs.push(Run { first: first as u32, entry, lanes: 0xff });
+    }
+    /// Adds some of eight rays from a row on.
+    pub(in super::super) fn push_some(&mut self, first: usize, lanes: u8) {
+        self.runs.push(Run { first: first as u32, entry: None, lanes });
     }
     /// Adds what stands for the tree to runs to come.
     pub(in super::super) fn add_entry(&mut self, node: Node8) -> EntryNumber {

@@ -2,17 +2,20 @@
 
 use super::super::GROUP;
 use super::super::frustum::Apex;
-use crate::accel::traversal::{Hint, LONGEST_PAUSE, Pace};
+use crate::accel::traversal::{LONGEST_PAUSE, Pace};
 
-/// Most bundles that are not tried after one whose rays seem to come from nowhere in common: to see that costs little.
-const GUESS_PAUSE: u32 = 7;
+/// Most bundles that are not tried after a beam that has no point in common: to see that costs little.
+const GUESS_PAUSE: u32 = 1;
+
+/// Most windows of rays in which no beams are looked for after one that had none, or none that paid.
+const BEAM_PAUSE: u32 = 31;
 
 /// What is tried with packets before each goes its way.
 #[derive(Clone, Copy, Default, PartialEq)]
 pub(super) struct Tries {
     /// To go as a bundle with this apex.
     pub(super) apex: Option<Apex>,
-    /// To go as a bundle with an apex that has to be found.
+    /// To go as a bundle with an apex that has to be found: they are a beam.
     pub(super) guesses: bool,
     /// To enter the tree far from its root.
     pub(super) enters: bool,
@@ -37,6 +40,8 @@ pub(super) struct Paces {
     /// Large ones.
     large: Pace,
     large_guessed: Pace,
+    /// Beams in windows of rays without an apex.
+    beams: Pace,
     /// Short rays, which may enter the tree far from its root.
     pub(super) entries: Pace,
 }
@@ -49,6 +54,7 @@ impl Default for Paces {
             guessed: Pace::default(),
             large: Pace::default(),
             large_guessed: Pace::default(),
+            beams: Pace::default(),
             entries: Pace::default(),
         };
         paces.large.skip_next();
@@ -60,21 +66,32 @@ impl Default for Paces {
 impl Paces {
     /// What is tried with the packets to come, of which the first ray ends or does not.
     #[inline(always)]
-    pub(super) fn tries(&mut self, apex: Option<Apex>, hint: Hint, ends: bool) -> Tries {
+    pub(super) fn tries(&mut self, apex: Option<Apex>, is_beam: bool, ends: bool) -> Tries {
         Tries {
             apex: apex.filter(|_| self.known.tries()),
-            guesses: apex.is_none() && hint != Hint::Incoherent && self.guessed.tries(),
-            enters: apex.is_none() && hint == Hint::Auto && ends && self.entries.tries(),
+            guesses: is_beam && self.guessed.tries(),
+            enters: apex.is_none() && ends && self.entries.tries(),
         }
+    }
+
+    /// True if beams are to be looked for among the packets to come.
+    #[inline(always)]
+    pub(super) fn looks_for_beams(&mut self) -> bool {
+        self.beams.tries()
+    }
+    /// Takes note of whether there were any that paid.
+    #[inline(always)]
+    pub(super) fn learn_beams(&mut self, found: bool) {
+        self.beams.learn_within(if found { 0 } else { -1 }, BEAM_PAUSE);
     }
 
     /// True if so many packets are to go as one large bundle.
     #[inline(always)]
-    pub(super) fn tries_large(&mut self, (apex, hint): (Option<Apex>, Hint), packets: usize) -> bool {
+    pub(super) fn tries_large(&mut self, apex: Option<Apex>, is_beam: bool, packets: usize) -> bool {
         packets > GROUP
             && match apex {
                 Some(_) => !self.known.is_resting() && self.large.tries(),
-                None => hint != Hint::Incoherent && self.large_guessed.tries(),
+                None => is_beam && self.large_guessed.tries(),
             }
     }
 
