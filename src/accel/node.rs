@@ -2,6 +2,7 @@
 
 use crate::intersect::PrimKind;
 use crate::math::{Aabb, WIDTH};
+use wide::u32x8;
 
 /// Eight boxes and what each of them holds.
 ///
@@ -28,6 +29,13 @@ impl Node8 {
 
     /// Bytes from a column of least coordinates to that of greatest on the same axis.
     pub(super) const ACROSS: u8 = size_of::<[[f32; WIDTH]; 3]>() as u8;
+
+    /// Slots that lead anywhere, as bits.
+    #[inline(always)]
+    pub(super) fn children(&self) -> u32 {
+        let nowhere = u32x8::splat(ChildRef::EMPTY.bits());
+        u32x8::new(self.child.map(ChildRef::bits)).simd_eq(nowhere).to_bitmask() ^ 0xff
+    }
 
     /// The box of a slot.
     pub fn bounds(&self, slot: usize) -> Aabb {

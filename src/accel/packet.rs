@@ -60,7 +60,8 @@ impl Descend for RaysByPrimitive {
     ) {
         let octant = heading.octant;
         let (mut enters, mut met) = ([f32x8::ZERO; WIDTH], 0);
-        let mut left = heading.region.as_ref().map_or(0xff, |region| region.children(node));
+        let near = heading.region.as_ref().map_or(0xff, |region| region.children(node));
+        let mut left = near & node.children();
         // Which of the children are met nobody can predict: first all are tested, then those met go on the stack.
         while left != 0 {
             let slot = left.trailing_zeros() as usize % WIDTH;
@@ -71,12 +72,8 @@ impl Descend for RaysByPrimitive {
             met |= u32::from(meets.any()) << slot;
         }
         for slot in far_first(octant.bits as u32, met).take(met.count_ones()) {
-            let child = node.child[slot];
-            // Where the slabs of huge scenes overflow, rays may seem to meet even the box of a free slot.
-            if !child.is_empty() {
-                unchecked::prefetch(accel, child);
-                stack.push(Entry { near: enters[slot], child });
-            }
+            unchecked::prefetch(accel, node.child[slot]);
+            stack.push(Entry { near: enters[slot], child: node.child[slot] });
         }
     }
 

@@ -43,13 +43,14 @@ pub(super) struct Packets<'a, T: Tier> {
 
 impl<'a, T: Tier> Packets<'a, T> {
     pub(super) fn new(accel: &'a Accel) -> Self {
+        let traversal = Traversal::new(accel);
         Self {
             accel,
-            traversal: Traversal::new(accel),
+            paces: Paces::new(traversal.is_small()),
+            traversal,
             rays: Box::new([no_rays(); BUNDLE]),
             frustum: Box::default(),
             work: Box::default(),
-            paces: Paces::default(),
         }
     }
 

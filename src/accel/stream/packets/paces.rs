@@ -5,7 +5,9 @@ use super::super::frustum::Apex;
 use crate::accel::traversal::{LONGEST_PAUSE, Pace};
 
 /// Most bundles that are not tried after a beam that has no point in common: to see that costs little.
-const GUESS_PAUSE: u32 = 1;
+const BEAM_GUESS_PAUSE: u32 = 1;
+/// The same in small trees, where rays need not be a beam to be tried.
+const GUESS_PAUSE: u32 = 7;
 
 /// Most windows of rays in which no beams are looked for after one that had none, or none that paid.
 const BEAM_PAUSE: u32 = 31;
@@ -44,11 +46,13 @@ pub(super) struct Paces {
     beams: Pace,
     /// Short rays, which may enter the tree far from its root.
     pub(super) entries: Pace,
+    /// Most bundles not tried after one whose rays have no point in common.
+    guess_pause: u32,
 }
 
-/// Small bundles come first: they tell whether large ones would pay.
-impl Default for Paces {
-    fn default() -> Self {
+impl Paces {
+    /// Nothing learned yet: small bundles come first, as they tell whether large ones would pay.
+    pub(super) fn new(is_small: bool) -> Self {
         let mut paces = Self {
             known: Pace::default(),
             guessed: Pace::default(),
@@ -56,14 +60,13 @@ impl Default for Paces {
             large_guessed: Pace::default(),
             beams: Pace::default(),
             entries: Pace::default(),
+            guess_pause: if is_small { GUESS_PAUSE } else { BEAM_GUESS_PAUSE },
         };
         paces.large.skip_next();
         paces.large_guessed.skip_next();
         paces
     }
-}
 
-impl Paces {
     /// What is tried with the packets to come, of which the first ray ends or does not.
     #[inline(always)]
     pub(super) fn tries(&mut self, apex: Option<Apex>, is_beam: bool, ends: bool) -> Tries {
@@ -109,7 +112,7 @@ impl Paces {
                     large.skip_next();
                 }
             }
-            None if is_guessed => pace.learn_within(-1, GUESS_PAUSE),
+            None if is_guessed => pace.learn_within(-1, self.guess_pause),
             None => {}
         }
     }
@@ -118,7 +121,7 @@ impl Paces {
     #[inline(always)]
     pub(super) fn learn_large(&mut self, is_guessed: bool, paid: bool) {
         let (pace, longest) = match is_guessed {
-            true => (&mut self.large_guessed, GUESS_PAUSE),
+            true => (&mut self.large_guessed, self.guess_pause),
             false => (&mut self.large, LONGEST_PAUSE),
         };
         if paid { pace.trust_more() } else { pace.learn_within(-1, longest) }

@@ -29,10 +29,9 @@ impl<T: Tier> Packets<'_, T> {
             let packets = (rays.len - first).div_ceil(WIDTH).min(BUNDLE);
             // Rays that end soon mostly come from no mirror.
             let looks = hint != Hint::Incoherent && !rays.ends(first) && self.paces.looks_for_beams();
-            let is_beam = looks && are_one(rays, first, packets);
-            // In a small tree packets go together whatever their rays.
-            let sorts = looks && !is_beam && !self.traversal.is_small();
-            let beams = if sorts { Beams::of::<T, S>(rays, first, packets) } else { None };
+            // In a small tree packets go together whatever their rays, and bundles pay that are no beams.
+            let is_beam = looks && (self.traversal.is_small() || are_one(rays, first, packets));
+            let beams = if looks && !is_beam { Beams::of::<T, S>(rays, first, packets) } else { None };
             let paid = match beams {
                 Some(beams) => self.trace_beams(rays, first, &beams, queries, answers, alone),
                 None => {
