@@ -91,14 +91,19 @@ impl<R: Real> RayColumns<'_, R> {
         load3(&self.direction, at)
     }
 
-    /// Which of eight rays from row `at` on there are, and which of them are asked, as bits.
+    /// Which of eight rays from row `at` on there are, as bits.
     #[inline(always)]
-    pub(super) fn there_and_asked<L: Lane>(&self, at: usize) -> (u32, u32)
+    pub(super) fn there(&self, at: usize) -> u32 {
+        0xff >> WIDTH.saturating_sub(self.len - at)
+    }
+
+    /// Which of them are asked.
+    #[inline(always)]
+    pub(super) fn asked<L: Lane>(&self, at: usize) -> u32
     where
         R: Stored<L>,
     {
-        let there = 0xff >> WIDTH.saturating_sub(self.len - at);
-        (there, self.t_max_at::<L>(at).gt(L::constant(f64::NEG_INFINITY)).bits())
+        self.t_max_at::<L>(at).gt(L::constant(f64::NEG_INFINITY)).bits()
     }
 
     #[inline(always)]

@@ -11,7 +11,7 @@ use crate::accel::node::Node8;
 use crate::accel::query::Query;
 use crate::accel::traversal::ask_planes;
 use crate::intersect::{RayLanes, Tier};
-use crate::math::{Stored, WIDTH};
+use crate::math::Stored;
 
 /// Eight rays and all that their way down the tree needs to know of them.
 pub(super) struct Seeds<T: Tier, A: Answers<T>> {
@@ -30,7 +30,7 @@ impl<T: Tier, A: Answers<T>> Seeds<T, A> {
     #[inline(always)]
     pub(super) fn new<S: Stored<T::Wide>>(accel: &Accel, rays: &RayColumns<S>, run: Run) -> Self {
         let first = run.first;
-        let there = (0xff_u32 >> WIDTH.saturating_sub(rays.len - first as usize)) as u8;
+        let there = rays.there(first as usize) as u8;
         let rays: RayLanes<T::Wide> = rays.load(first as usize);
         let mut queries = A::ask(&rays);
         ask_planes(accel, &rays, &mut queries);

@@ -41,7 +41,7 @@ impl Beams {
         let (mut forming, mut count, mut loose) = ([Forming::NONE; MOST], 0, [0; BUNDLE]);
         for (j, loose) in loose[..packets].iter_mut().enumerate() {
             let at = first + j * WIDTH;
-            let (there, asked) = rays.there_and_asked::<T::Wide>(at);
+            let (there, asked) = (rays.there(at), rays.asked::<T::Wide>(at));
             let (d, mut left) = (narrow::<T>(rays.directions(at)), asked);
             for beam in &mut forming[..count] {
                 left = beam.take(j, left, d);
